@@ -1,0 +1,50 @@
+// The baked form of a BRDF: one to three small textures, a handful of constants, and a lookup formula named by `form`.
+// This file is the C++ twin of shaders/nacre/factored_*.glsl: same formula, single precision, same filter.
+#pragma once
+
+#include <array>
+#include <string>
+#include <vector>
+
+#include "core/asset.hpp"
+#include "core/math.hpp"
+
+namespace nacre {
+
+/// The lookup formulas. Each has one GLSL function of the same name, and one section in factorize/README.md.
+enum class FactoredForm {
+    HalfDiff,     ///< f = kd + exp(M·(T(u,v) ⊗ powers of cos²φd + B(U,V)))         isotropic
+    Cosine,       ///< f = kd + A(cosθ, cosδ) · B(cosα, cosβ), linear               HSE section 1.1, eq. 2, 3
+    SingleLobe,   ///< f = (T(s, cosα) − ambient) / cosα                            HSE section 1.1
+    Tangent,      ///< f = T(t·l, t·v)                                              Banks, HSE eq. 4
+    Homomorphic,  ///< f = D(U,V) + exp(P(i) + P(o) + Q(h) + polynomial(θd) …)      McCool 2001; anisotropic
+    Separable     ///< f = Σ_k U_k(x) · V_k(y)                                      Kautz & McCool 1999
+};
+
+std::string toString(FactoredForm form);  ///< half_diff, cosine, single_lobe, tangent, homomorphic, separable
+/// \throws std::invalid_argument that lists the known names
+FactoredForm factoredFormFromString(const std::string& name);
+
+inline constexpr int kMaxFactoredTextures = 4;
+inline constexpr int kFactoredParams = 16;  ///< vec4s of constants a form may use
+
+/// A factored BRDF as the shader sees it.
+struct FactoredBrdf {
+    FactoredForm form = FactoredForm::HalfDiff;
+    std::string method;                  ///< how it was made: analytic, fit, svd, …
+    std::vector<AssetTexture> textures;  ///< in the order of the shader's samplers; size ≤ kMaxFactoredTextures
+    std::array<glm::vec4, kFactoredParams> params{};  ///< meaning per form: factored_brdf.cpp, and the form's .glsl
+    int fetches = 0;                                  ///< texture lookups per evaluation
+
+    std::size_t bytes() const;
+};
+
+/// f̂(wi, wo) [1/sr] as the shader computes it: single precision, bilinear filter, stored values.
+/// 0 when either direction is at or below the horizon.
+Rgb evaluate(const FactoredBrdf& brdf, const Vec3& wi, const Vec3& wo);
+
+Asset toAsset(const FactoredBrdf& brdf);
+/// \throws nacre::Error when the asset is no factored BRDF or lacks a texture or constant of its form
+FactoredBrdf factoredFromAsset(const Asset& asset, const std::string& path);
+
+}  // namespace nacre
