@@ -14,4 +14,7 @@ endfunction()
 # Warnings are errors, in every target of ours.
 function(nacre_warnings target)
   target_compile_options(${target} PRIVATE -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion -Werror)
+  if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_COMPILER_VERSION VERSION_LESS 13)
+    target_compile_options(${target} PRIVATE -Wno-restrict)  # false alarms on std::string concatenation (GCC bug 105651)
+  endif()
 endfunction()
