@@ -1,0 +1,149 @@
+#include "demos/page.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <set>
+
+#include "core/error.hpp"
+#include "demos/color_map.hpp"
+#include "demos/page_style.hpp"
+
+namespace nacre {
+namespace {
+
+std::string dataUri(const Picture& picture) { return "data:image/png;base64," + base64(picture.png); }
+
+std::string figure(const Picture& picture, const std::string& alt, const std::string& caption,
+                   const std::string& below = {}) {
+    return fmt::format("<figure><img alt=\"{}\" src=\"{}\">{}<figcaption>{}</figcaption></figure>\n", escapeHtml(alt),
+                       dataUri(picture), below, caption);
+}
+
+std::string scaleBar(double scale) {
+    std::string ticks;
+    for (const double share : {0.0, 0.25, 0.5, 0.75, 1.0})
+        ticks += fmt::format("<span>{}</span>", formatNumber(share * scale, 2));
+    return "<div class=\"scale\"></div><div class=\"ticks\">" + ticks + "</div>";
+}
+
+std::string ratio(double factored, double direct) { return formatNumber(direct / factored, 3) + "×"; }
+
+std::string psnrText(double psnr) { return std::isfinite(psnr) ? fmt::format("{:.1f} dB", psnr) : "identical"; }
+
+std::string percent(double share) { return formatNumber(100 * share, 3) + " %"; }
+
+/// A cell that shows its column's name where the table becomes a list, on narrow screens.
+std::string cell(const std::string& name, const std::string& value) {
+    return fmt::format("<td data-name=\"{}\"><span>{}</span></td>", name, value);
+}
+
+std::string headRow(const std::vector<std::string>& names) {
+    std::string row = "<thead><tr>";
+    for (const std::string& name : names) row += "<th scope=\"col\">" + name + "</th>";
+    return row + "</tr></thead>\n";
+}
+
+std::string summaryTable(const Gallery& gallery) {
+    std::string html = "<table class=\"cards\">" +
+                       headRow({"entry", "E<sub>L2</sub>", "picture", "bytes", "fetches", "frame", "direct ÷ frame"}) +
+                       "<tbody>\n";
+    for (const Entry& e : gallery.entries) {
+        const Shot& shot = e.shots.front();
+        html += fmt::format("<tr><td><a href=\"#{}\">{}</a></td>", e.id, escapeHtml(e.title)) +
+                cell("E_L2", percent(e.asset.l2Rel)) + cell("picture", psnrText(shot.psnr)) +
+                cell("bytes", formatBytes(e.asset.bytes)) + cell("fetches", std::to_string(e.asset.fetches)) +
+                cell("frame", formatNumber(shot.milliseconds) + " ms") +
+                cell("direct ÷ frame", e.directMilliseconds ? ratio(shot.milliseconds, *e.directMilliseconds) : "–") +
+                "</tr>\n";
+    }
+    return html + "</tbody></table>\n";
+}
+
+std::string shotTable(const Entry& e) {
+    std::string html = "<table class=\"cards\">" +
+                       headRow({"drawn", "PSNR", "relative error", "frame", "direct ÷ frame"}) + "<tbody>\n";
+    for (const Shot& shot : e.shots)
+        html +=
+            fmt::format("<tr><td>{}</td>", escapeHtml(shot.label)) + cell("PSNR", psnrText(shot.psnr)) +
+            cell("rel. error", percent(shot.relativeError)) + cell("frame", formatNumber(shot.milliseconds) + " ms") +
+            cell("direct ÷", e.directMilliseconds ? ratio(shot.milliseconds, *e.directMilliseconds) : "–") + "</tr>\n";
+    if (e.directMilliseconds)
+        html += fmt::format("<tr><td>evaluated directly: {}</td>", escapeHtml(e.directLabel)) + cell("PSNR", "–") +
+                cell("rel. error", "–") + cell("frame", formatNumber(*e.directMilliseconds) + " ms") +
+                cell("direct ÷", "1") + "</tr>\n";
+    return html + "</tbody></table>\n";
+}
+
+std::string fact(const std::string& name, const std::string& value) {
+    return fmt::format("<div><dt>{}</dt><dd>{}</dd></div>", name, value);
+}
+
+std::string assetFacts(const AssetFacts& a) {
+    return "<dl>" + fact("method, form", escapeHtml(a.method + ", " + a.form)) +
+           fact("textures", escapeHtml(a.textures)) + fact("bytes", formatBytes(a.bytes)) +
+           fact("fetches", std::to_string(a.fetches)) + fact("E<sub>L2</sub> to 80°", percent(a.l2Rel)) +
+           fact("E<sub>L2</sub> 80–89°", percent(a.grazingL2Rel)) + fact("E<sub>log</sub>", formatNumber(a.logRms)) +
+           fact("largest relative", percent(a.maxRel)) + fact("lit sphere", psnrText(a.spherePsnr)) +
+           fact("baked in", formatNumber(a.bakeSeconds) + " s") + "</dl>\n";
+}
+
+std::string article(const Entry& e) {
+    std::string html = fmt::format("<article id=\"{}\"><h3>{}</h3><p>{}</p>\n<div class=\"shots\">\n", e.id,
+                                   escapeHtml(e.title), escapeHtml(e.caption));
+    const bool several = e.shots.size() > 1;
+    if (several) html += figure(e.reference, e.title + ": reference", "reference: ray traced, unfactored");
+    for (const Shot& shot : e.shots) {
+        html += figure(shot.picture, e.title + ", " + shot.label, escapeHtml(shot.label));
+        if (!several) html += figure(e.reference, e.title + ": reference", "reference: ray traced, unfactored");
+        html += figure(shot.difference, e.title + ", " + shot.label + ": difference",
+                       (several ? escapeHtml(shot.label) + ": d" : "d") +
+                           fmt::format("ifference; {}, {}", psnrText(shot.psnr), percent(shot.relativeError)),
+                       scaleBar(e.differenceScale));
+    }
+    html += "</div>\n" + shotTable(e);
+    if (!e.directMilliseconds && !e.directLabel.empty())
+        html += "<p class=\"note\">" + escapeHtml(e.directLabel) + "</p>\n";
+    html += assetFacts(e.asset);
+    html += "<p class=\"soft\">" + escapeHtml(e.scene) + "</p>\n<pre>" + escapeHtml(e.command) + "</pre>\n";
+    return html + "</article>\n";
+}
+
+std::string introduction(const Gallery& gallery) {
+    std::string html =
+        "<h1>nacre: gallery</h1>\n<p>Each material here is a reflectance that was turned into one to three small "
+        "textures (<em>factored</em>), which a shader looks up for each pixel and light. Beside every picture stand "
+        "its reference, ray traced with the unfactored reflectance, same lights and camera; the difference of the "
+        "two; and the cost of the lookup against that of evaluating the model in the same shader, measured in the "
+        "same run.</p>\n<p>Differences are |picture − reference| of linear radiance as exposed, the mean over red, "
+        "green and blue, where 1 is white. The PSNR is that of the pictures as shown (sRGB, clipped at white, "
+        "background left out); E<sub>L2</sub> is the relative error of the reflectance itself over all directions up "
+        "to 80°, read back through the stored format and the texture filter. <code>reference/brdf_metrics.hpp</code> "
+        "and <code>reference/image_compare.hpp</code> define these numbers.</p>\n";
+    html += fmt::format("<p class=\"soft\">nacre {}; {}; {}; made in {} s{}</p>\n", escapeHtml(gallery.version),
+                        escapeHtml(gallery.renderer), escapeHtml(gallery.machine), formatNumber(gallery.seconds),
+                        gallery.quick ? "; <strong>quick run: small pictures, few samples</strong>" : "");
+    for (const std::string& note : gallery.notes) html += "<p class=\"note\">" + escapeHtml(note) + "</p>\n";
+    return html;
+}
+
+}  // namespace
+
+std::string galleryPage(const Gallery& gallery) {
+    galleryJson(gallery);  // checks every entry
+    std::string html =
+        "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
+        "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n<title>nacre: gallery</title>\n"
+        "<link rel=\"icon\" href=\"data:,\">\n<style>";
+    html += std::string(kPageStyle) + ".scale { background: " + falseColorGradient() + "; }\n</style>\n</head>\n";
+    html += "<body>\n<main>\n" + introduction(gallery) + "<h2>Summary</h2>\n" + summaryTable(gallery);
+    std::string section;
+    for (const Entry& entry : gallery.entries) {
+        if (entry.section != section) html += "<h2>" + escapeHtml(entry.section) + "</h2>\n";
+        section = entry.section;
+        html += article(entry);
+    }
+    return html + "</main>\n</body>\n</html>\n";
+}
+
+}  // namespace nacre
