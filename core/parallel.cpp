@@ -1,8 +1,10 @@
 #include "core/parallel.hpp"
 
+#include <tbb/info.h>
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 
+#include <algorithm>
 #include <vector>
 
 namespace nacre {
@@ -12,7 +14,9 @@ void parallelFor(std::size_t count, unsigned threads, const std::function<void(s
         for (std::size_t i = 0; i < count; ++i) body(i);
         return;
     }
-    tbb::task_arena arena(threads == 0 ? tbb::task_arena::automatic : static_cast<int>(threads));
+    // More threads than cores buy nothing, and TBB would complain about them on stderr.
+    const int cores = tbb::info::default_concurrency();
+    tbb::task_arena arena(threads == 0 ? cores : static_cast<int>(std::min<unsigned>(threads, cores)));
     arena.execute([&] { tbb::parallel_for(std::size_t{0}, count, body); });
 }
 
