@@ -12,7 +12,6 @@ namespace {
 
 constexpr int kPixels = 128, kLights = 6;
 constexpr double kElevation = 20 * kPi / 180, kAzimuthStep = 30 * kPi / 180;
-constexpr double kSmallestWhite = 0.05, kWhiteFactor = 1.5, kWhitePercentile = 0.9;
 
 struct LitPixel {
     Rgb approximate, truth;  ///< radiance
@@ -49,20 +48,13 @@ std::vector<LitPixel> shadeAll(const BrdfFunction& approximate, const BrdfFuncti
     return pixels;
 }
 
-double whitePoint(const std::vector<LitPixel>& pixels) {
-    std::vector<double> values;
-    for (const LitPixel& p : pixels) values.push_back(luminance(p.truth));
-    const auto place =
-        values.begin() + static_cast<std::ptrdiff_t>(kWhitePercentile * static_cast<double>(values.size()));
-    std::nth_element(values.begin(), place, values.end());
-    return std::max(kWhiteFactor * *place, kSmallestWhite);
-}
-
 }  // namespace
 
 double spherePsnr(const BrdfFunction& approximate, const BrdfFunction& truth, unsigned threads) {
     const std::vector<LitPixel> pixels = shadeAll(approximate, truth, threads);
-    const double white = whitePoint(pixels);
+    std::vector<double> luminances;
+    for (const LitPixel& p : pixels) luminances.push_back(luminance(p.truth));
+    const double white = whitePoint(std::move(luminances));
     double sum = 0;
     for (const LitPixel& p : pixels) {
         if (!isFinite(p.approximate)) return -std::numeric_limits<double>::infinity();

@@ -1,6 +1,8 @@
 // From linear light to what a screen shows, and decibels.
 #pragma once
 
+#include <vector>
+
 #include "core/math.hpp"
 
 namespace nacre {
@@ -13,5 +15,14 @@ inline double srgbEncode(double linear) {
 
 /// −10 log10(meanSquare) [dB] for values with peak 1; 200 for anything below 1e-20, identical pictures included.
 inline double psnrOfMeanSquare(double meanSquare) { return -10 * std::log10(std::max(meanSquare, 1e-20)); }
+
+/// Radiance shown as white: max(1.5 × the 90th percentile of the luminances of lit pixels, 0.05); 0.05 when there are
+/// none.
+inline double whitePoint(std::vector<double> luminances) {
+    if (luminances.empty()) return 0.05;
+    const auto place = luminances.begin() + static_cast<std::ptrdiff_t>(0.9 * static_cast<double>(luminances.size()));
+    std::nth_element(luminances.begin(), place, luminances.end());
+    return std::max(1.5 * *place, 0.05);
+}
 
 }  // namespace nacre

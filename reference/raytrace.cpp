@@ -1,0 +1,143 @@
+#include "reference/raytrace.hpp"
+
+#include <fmt/format.h>
+
+#include <limits>
+
+#include "core/error.hpp"
+#include "core/parallel.hpp"
+#include "reference/embree_scene.hpp"
+
+namespace nacre {
+
+namespace {
+
+struct Surface {
+    Vec3 position, normal, tangent, bitangent;
+};
+
+template <typename T>
+T interpolate(const std::vector<T>& values, const glm::uvec3& triangle, const Vec3& weight) {
+    return T(static_cast<float>(weight.x)) * values[triangle.x] + T(static_cast<float>(weight.y)) * values[triangle.y] +
+           T(static_cast<float>(weight.z)) * values[triangle.z];
+}
+
+Vec3 anyPerpendicular(const Vec3& n) {
+    return glm::normalize(glm::cross(n, std::abs(n.x) < 0.5 ? Vec3(1, 0, 0) : Vec3(0, 1, 0)));
+}
+
+Surface surfaceAt(const Mesh& mesh, const RayHit& hit) {
+    const glm::uvec3& triangle = mesh.triangles[hit.triangle];
+    const Vec3 weight(1 - hit.u - hit.v, hit.u, hit.v);
+    const glm::vec4 tangent = interpolate(mesh.tangents, triangle, weight);
+    Surface s;
+    s.position = Vec3(interpolate(mesh.positions, triangle, weight));
+    s.normal = glm::normalize(Vec3(interpolate(mesh.normals, triangle, weight)));
+    const Vec3 across = Vec3(tangent) - glm::dot(Vec3(tangent), s.normal) * s.normal;
+    // Interpolated tangents may cancel or meet the normal: any tangent then, as good as none.
+    s.tangent = glm::length(across) > 1e-9 ? glm::normalize(across) : anyPerpendicular(s.normal);
+    s.bitangent = (tangent.w < 0 ? -1.0 : 1.0) * glm::cross(s.normal, s.tangent);
+    return s;
+}
+
+Vec3 toLocal(const Surface& s, const Vec3& v) {
+    return {glm::dot(s.tangent, v), glm::dot(s.bitangent, v), glm::dot(s.normal, v)};
+}
+
+/// The camera as rays: o + t·d, where t is the depth along the viewing axis.
+struct RayCamera {
+    glm::dmat4 toWorld;
+    Vec2 halfExtent;  ///< perspective: at depth 1; orthographic: at any depth
+    const Camera& camera;
+
+    RayCamera(const Camera& c, double aspect) : toWorld(glm::inverse(c.view())), camera(c) {
+        const double y = c.orthographic ? c.height / 2 : std::tan(c.fovY / 2);
+        halfExtent = {y * aspect, y};
+    }
+    Ray at(const Vec2& ndc) const {
+        const Vec3 plane(ndc * halfExtent, camera.orthographic ? 0 : -1);
+        const Vec3 o = camera.orthographic ? plane : Vec3(0), d = camera.orthographic ? Vec3(0, 0, -1) : plane;
+        return {Vec3(toWorld * Vec4(o, 1)), Vec3(toWorld * Vec4(d, 0)), camera.near, camera.far};
+    }
+};
+
+class Renderer {
+public:
+    Renderer(const Mesh& mesh, const Camera& camera, const std::vector<Light>& lights, const BrdfFunction& brdf,
+             const RaytraceOptions& options)
+        : mesh_(mesh),
+          lights_(lights),
+          brdf_(brdf),
+          options_(options),
+          scene_(mesh),
+          rays_(camera, static_cast<double>(options.width) / options.height) {}
+
+    void pixel(int x, int y, RaytracedPicture& out) const {
+        const int n = options_.supersample;
+        Rgb sum(0);
+        int hits = 0;
+        for (int i = 0; i < n * n; ++i) {
+            const Vec2 centre(x + (i % n + 0.5) / n, y + (i / n + 0.5) / n);
+            const Ray ray = rays_.at({2 * centre.x / options_.width - 1, 1 - 2 * centre.y / options_.height});
+            const RayHit hit = scene_.firstHit(ray);
+            hits += hit.found;
+            sum += hit.found ? radiance(surfaceAt(mesh_, hit), -glm::normalize(ray.direction)) : options_.background;
+        }
+        out.radiance.setRgb(x, y, sum / static_cast<double>(n * n));
+        out.coverage.at(x, y, 0) = static_cast<float>(hits) / static_cast<float>(n * n);
+    }
+
+private:
+    Rgb radiance(const Surface& s, const Vec3& toEye) const {
+        const Vec3 wo = toLocal(s, toEye);
+        Rgb sum(0);
+        if (!(wo.z > 0)) return sum;
+        for (const Light& light : lights_) {
+            const Vec3 offset = light.directional ? light.position : light.position - s.position;
+            const double distance = glm::length(offset);
+            const Vec3 wi = toLocal(s, offset / distance);
+            if (!(wi.z > 0) || (options_.shadows && occluded(s, light, offset))) continue;
+            sum += brdf_(wi, wo) * light.color * (wi.z / (light.directional ? 1 : distance * distance));
+        }
+        return sum;
+    }
+    bool occluded(const Surface& s, const Light& light, const Vec3& offset) const {
+        const double skip = 1e-4 * scene_.size();  // past the triangle itself: positions are single precision
+        const double length = glm::length(offset);
+        const double end = light.directional ? std::numeric_limits<float>::max() : length - skip;
+        return scene_.occluded({s.position, offset / length, skip, end});
+    }
+
+    const Mesh& mesh_;
+    const std::vector<Light>& lights_;
+    const BrdfFunction& brdf_;
+    const RaytraceOptions& options_;
+    EmbreeScene scene_;
+    RayCamera rays_;
+};
+
+void checkMesh(const Mesh& mesh) {
+    const std::size_t n = mesh.positions.size();
+    require(mesh.normals.size() == n && mesh.tangents.size() == n,
+            fmt::format("raytrace: {} positions, but {} normals and {} tangents", n, mesh.normals.size(),
+                        mesh.tangents.size()));
+    for (const glm::vec3& p : mesh.positions) require(isFinite(Vec3(p)), "raytrace: a position is not finite");
+    for (const glm::uvec3& t : mesh.triangles)
+        require(std::max(t.x, std::max(t.y, t.z)) < n, fmt::format("raytrace: a triangle's index is not below {}", n));
+}
+
+}  // namespace
+
+RaytracedPicture raytrace(const Mesh& mesh, const Camera& camera, const std::vector<Light>& lights,
+                          const BrdfFunction& brdf, const RaytraceOptions& options) {
+    require(options.width >= 1 && options.height >= 1 && options.supersample >= 1, "raytrace: a size is below 1");
+    checkMesh(mesh);
+    const Renderer renderer(mesh, camera, lights, brdf, options);
+    RaytracedPicture out{Image(options.width, options.height, 3), Image(options.width, options.height, 1)};
+    parallelFor(static_cast<std::size_t>(options.height), options.threads, [&](std::size_t y) {
+        for (int x = 0; x < options.width; ++x) renderer.pixel(x, static_cast<int>(y), out);
+    });
+    return out;
+}
+
+}  // namespace nacre
