@@ -101,9 +101,10 @@ std::function<Rgb(double)> fresnelTerm(const Source& s) {
     if (f == "schlick") return [=](double theta) { return ks * terms::schlick(theta, f0); };
     require(f == "dielectric" || f == "conductor", "referenceBrdf: unknown Fresnel term '" + f + "'");
     const Rgb k = f == "conductor" ? s.colour("k") : Rgb(0);
+    const bool grey = eta == Rgb(eta.r) && k == Rgb(k.r);  // one evaluation serves all channels
     return [=](double theta) {
-        return ks * Rgb(terms::fresnel(theta, eta.r, k.r), terms::fresnel(theta, eta.g, k.g),
-                        terms::fresnel(theta, eta.b, k.b));
+        const double r = terms::fresnel(theta, eta.r, k.r);
+        return grey ? ks * r : ks * Rgb(r, terms::fresnel(theta, eta.g, k.g), terms::fresnel(theta, eta.b, k.b));
     };
 }
 
