@@ -21,7 +21,7 @@ struct PhongEllipse {
         const double s2 = sinSquared(h);
         if (s2 == 0.0) return scale;
         const double logCos = s2 < 0.5 ? 0.5 * std::log1p(-s2) : std::log(std::max(h.z, 1e-300));
-        return scale * std::exp((nu * h.x * h.x + nv * h.y * h.y) * (logCos / s2));
+        return scale * expNegative((nu * h.x * h.x + nv * h.y * h.y) * (-logCos / s2));
     }
 };
 

@@ -7,8 +7,11 @@
 
 namespace nacre {
 
-/// tan²δ cosδ² = sin²δ of a unit vector, from x and y: exact near the pole.
+/// sin²θ of a unit vector, from x and y: exact near the pole.
 inline double sinSquared(const Vec3& h) { return h.x * h.x + h.y * h.y; }
+
+/// e^(−x), 0 from x = 700 on: what is left out is below 1e-304, and denormal results would cost ten times the rest.
+inline double expNegative(double x) { return x < 700.0 ? std::exp(-x) : 0.0; }
 
 /// Beckmann (Beckmann & Spizzichino 1963, as normalised by Walter 2007, eq. 25):
 ///   D = exp(−tan²δ/α²) / (π α² cos⁴δ),   α > 0 = √2 × rms slope
@@ -17,7 +20,7 @@ struct BeckmannDistribution {
     double operator()(const Vec3& h) const {
         if (h.z < 1e-6) return 0.0;  // tan²δ > 1e12: the exponential is exactly 0 for α ≤ 1, and cos⁴ may underflow
         const double c2 = h.z * h.z, a2 = alpha * alpha;
-        return std::exp(-sinSquared(h) / (c2 * a2)) / (kPi * a2 * c2 * c2);
+        return expNegative(sinSquared(h) / (c2 * a2)) / (kPi * a2 * c2 * c2);
     }
 };
 
@@ -38,7 +41,7 @@ struct GaussianDistribution {
     explicit GaussianDistribution(double a) : alpha(a), scale(1.0 / normalisation(a)) {}
     double operator()(const Vec3& h) const {
         const double delta = std::atan2(std::sqrt(sinSquared(h)), h.z);
-        return scale * std::exp(-sqr(delta / alpha));
+        return scale * expNegative(sqr(delta / alpha));
     }
 
 private:
@@ -62,7 +65,7 @@ struct WardGaussian {
     double alphaX, alphaY;
     double operator()(const Vec3& h) const {
         if (h.z < 1e-6) return 0.0;  // as in BeckmannDistribution
-        return std::exp(-(sqr(h.x / alphaX) + sqr(h.y / alphaY)) / (h.z * h.z)) / (kPi * alphaX * alphaY);
+        return expNegative((sqr(h.x / alphaX) + sqr(h.y / alphaY)) / (h.z * h.z)) / (kPi * alphaX * alphaY);
     }
 };
 

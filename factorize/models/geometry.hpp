@@ -3,7 +3,7 @@
 // cosines vanish together. Both directions are above the horizon.
 #pragma once
 
-#include "core/directions.hpp"
+#include "factorize/models/distributions.hpp"
 
 namespace nacre {
 
@@ -22,8 +22,8 @@ inline double beckmannG1OverCos(double cosTheta, double sinTheta, double alpha) 
 struct BeckmannSmith {
     double alpha;
     double operator()(const Vec3& wi, const Vec3& wo) const {
-        return 0.25 * beckmannG1OverCos(wi.z, std::hypot(wi.x, wi.y), alpha) *
-               beckmannG1OverCos(wo.z, std::hypot(wo.x, wo.y), alpha);
+        return 0.25 * beckmannG1OverCos(wi.z, std::sqrt(sinSquared(wi)), alpha) *
+               beckmannG1OverCos(wo.z, std::sqrt(sinSquared(wo)), alpha);
     }
 };
 

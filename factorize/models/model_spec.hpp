@@ -15,6 +15,7 @@ struct ModelSpec {
     std::vector<ParameterSpec> parameters;
     /// Fills f, isotropic and the pieces; source, kind and hash are makeModel's.
     std::function<Reflectance(const ParameterValues&)> build;
+    std::string bare = {};  ///< the parameter that a lone word after the colon sets (`sgd:gold-paint`); empty for none
 };
 
 /// Below this elevation cosine a direction counts as at the horizon, where f = 0. A unit vector in double precision has
@@ -52,6 +53,9 @@ struct ConstantDiffuse {
 // One function a file in this folder.
 std::vector<ModelSpec> phongModels();       // phong.cpp: lambert, phong, blinn-phong, cosine-lobe
 std::vector<ModelSpec> microfacetModels();  // microfacet.cpp: torrance-sparrow, cook-torrance, ggx
+ModelSpec schlickModel();                   // schlick.cpp
+ModelSpec banksModel();                     // banks.cpp
+ModelSpec sgdModel();                       // sgd.cpp
 ModelSpec wardModel();                      // ward.cpp
 ModelSpec ashikhminShirleyModel();          // ashikhmin_shirley.cpp
 

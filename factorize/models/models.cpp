@@ -13,6 +13,9 @@ static std::vector<ModelSpec> allModels() {
     for (ModelSpec& spec : microfacetModels()) all.push_back(std::move(spec));
     all.push_back(wardModel());
     all.push_back(ashikhminShirleyModel());
+    all.push_back(schlickModel());
+    all.push_back(banksModel());
+    all.push_back(sgdModel());
     return all;
 }
 
@@ -52,7 +55,9 @@ static const ModelSpec& findModel(const std::string& name) {
 Reflectance makeModel(const std::string& text) {
     const std::size_t colon = std::min(text.find(':'), text.size());
     const ModelSpec& spec = findModel(text.substr(0, colon));
-    const std::string parameters = colon < text.size() ? text.substr(colon + 1) : std::string();
+    std::string parameters = colon < text.size() ? text.substr(colon + 1) : std::string();
+    const bool loneWord = !parameters.empty() && parameters.find('=') == std::string::npos;
+    if (loneWord && !spec.bare.empty()) parameters = spec.bare + "=" + parameters;
     const ParameterValues values = parseParameters(spec.name, parameters, spec.parameters);
     Reflectance out = spec.build(values);
     out.source = values.canonical();

@@ -43,12 +43,13 @@ Rgb integrateHalfVectors(double width, Function g, int steps = 256) {
 }
 
 /// Directional albedo ∫ f(wi, wo) cosα dω_i, with dω_i = 4 (wo·h) dω_h.
-inline Rgb albedo(const Reflectance& model, const Vec3& wo, double width) {
-    return integrateHalfVectors(width, [&](const Vec3& h) {
+inline Rgb albedo(const Reflectance& model, const Vec3& wo, double width, int steps = 256) {
+    const auto integrand = [&](const Vec3& h) {
         const double c = glm::dot(wo, h);
         const Vec3 wi = 2 * c * h - wo;
         return c > 0 && wi.z > 0 ? model.f(wi, wo) * (wi.z * 4 * c) : Rgb(0);
-    });
+    };
+    return integrateHalfVectors(width, integrand, steps);
 }
 
 }  // namespace nacre::test
