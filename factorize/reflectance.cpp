@@ -9,6 +9,7 @@
 
 #include "core/error.hpp"
 #include "factorize/measured/merl.hpp"
+#include "factorize/measured/rgl.hpp"
 #include "factorize/models/models.hpp"
 
 namespace nacre {
@@ -25,6 +26,7 @@ struct FileKind {
 
 static constexpr std::array kFileKinds = {
     FileKind{".binary", "\x5a\0\0\0\x5a\0\0\0\xb4\0\0\0", openMerl},  // int32 90, 90, 180
+    FileKind{".bsdf", "tensor_file\0", openRgl},
 };
 static constexpr std::size_t kFirstBytes = 12;
 
@@ -52,8 +54,9 @@ static Reflectance openFile(const std::string& source) {
     if (!fs::is_regular_file(source)) throw Error(fmt::format("{}: expected a file, found none", source));
     if (const FileKind* kind = kindBySuffix(source)) return kind->open(source);
     if (const FileKind* kind = kindByContent(source)) return kind->open(source);
-    throw Error(fmt::format("{}: expected a reflectance file (MERL .binary), found neither that suffix nor its content",
-                            source));
+    throw Error(fmt::format(
+        "{}: expected a reflectance file (MERL .binary, RGL .bsdf), found neither that suffix nor its content",
+        source));
 }
 
 Reflectance openReflectance(const std::string& source) {
