@@ -54,4 +54,17 @@ vec3 nacre_factored_brdf(vec3 wi, vec3 wo) {
 #endif
 }
 
+#ifdef NACRE_TEXTURE_MATRIX
+// The same from the coordinates that texture matrices give (forms cosine and tangent). cosines: cos theta_d, cos delta,
+// cos alpha, cos beta; along: t.wi, t.wo. Both may be interpolated; cos alpha, cos beta > 0.
+vec3 nacre_factored_brdf_at(vec4 cosines, vec2 along) {
+#if NACRE_FORM == NACRE_FORM_COSINE
+    return nacre_cosine_at(nacre_brdf_tex0, nacre_brdf_tex1, nacre_brdf_params, nacre_brdf_scale, nacre_brdf_bias,
+                           cosines.xy, cosines.zw);
+#elif NACRE_FORM == NACRE_FORM_TANGENT
+    return nacre_tangent_at(nacre_brdf_tex0, nacre_brdf_params, nacre_brdf_scale, nacre_brdf_bias, along);
+#endif
+}
+#endif
+
 #endif

@@ -1,0 +1,26 @@
+// Lit surface, addressed per vertex ("fast Phong", HSE section 1.1): local light and view vectors are made at the
+// vertices and interpolated without normalising again.
+#include "nacre/bind/lights.glsl"
+#include "nacre/bind/view.glsl"
+#include "nacre/frame.glsl"
+#include "nacre/light.glsl"
+
+layout(location = 0) in vec3 position;
+layout(location = 1) in vec3 normal;
+layout(location = 2) in vec4 tangent;
+
+out vec3 v_wo;
+out vec4 v_light[4];  // wi, falloff
+
+void main() {
+    mat3 frame = nacre_frame(normal, tangent);
+    v_wo = nacre_to_local(frame, nacre_direction_to(nacre_eye, position));
+    for (int i = 0; i < 4; ++i) {
+        vec4 light = nacre_light_position[i];
+        v_light[i] = vec4(0.0);
+        if (i < nacre_light_count)
+            v_light[i] = vec4(nacre_to_local(frame, nacre_direction_to(light, position)),
+                              nacre_light_falloff(light, position));
+    }
+    gl_Position = nacre_world_to_clip * vec4(position, 1.0);
+}

@@ -1,0 +1,44 @@
+// Draws a lit mesh: per pixel the sum over lights of f(wi, wo) · cosα · E, with a factored BRDF or a directly evaluated
+// one.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "core/scene.hpp"
+#include "shading/gpu_direct_brdf.hpp"
+#include "shading/gpu_factored_brdf.hpp"
+#include "shading/gpu_mesh.hpp"
+#include "shading/render_target.hpp"
+
+namespace nacre {
+
+inline constexpr int kMaxLights = 8;        ///< PerPixel
+inline constexpr int kMaxVertexLights = 4;  ///< PerVertex: each takes an interpolated vector
+
+/// How the textures are addressed (HSE section 1.1). The later two are the paper's; what they cost in error shrinks
+/// with the triangles.
+enum class Addressing {
+    PerPixel,      ///< normal and tangent are interpolated; all vectors are made and normalised in the pixel
+    PerVertex,     ///< "fast Phong": local vectors made at the vertices, interpolated, not normalised again
+    TextureMatrix  ///< equations 2 and 3: forms cosine and tangent, one directional light, orthographic camera
+};
+
+struct LitView {
+    Camera camera;
+    std::vector<Light> lights;  ///< colors >= 0 or any sign; nothing is clamped
+    Rgb ambient{0};             ///< radiance added to every point of the surface
+};
+
+/// Draws into `target` with depth test and depth write on, face culling and blending off, and leaves these so, with the
+/// program in use and the BRDF's textures bound from unit 0. Doesn't clear. Back faces are black (plus ambient).
+/// \throws std::invalid_argument with more lights than the addressing takes, a directional light that is not unit
+///         length, or TextureMatrix with another form, light or camera than it can do; nacre::Error from the shaders
+void renderFactored(ProgramLoader& loader, const RenderTarget& target, const GpuMesh& mesh, const LitView& view,
+                    const GpuFactoredBrdf& brdf, Addressing addressing = Addressing::PerPixel);
+
+/// The same with the model evaluated in the shader: the baseline for run-time cost. PerPixel or PerVertex.
+void renderDirect(ProgramLoader& loader, const RenderTarget& target, const GpuMesh& mesh, const LitView& view,
+                  const GpuDirectBrdf& brdf, Addressing addressing = Addressing::PerPixel);
+
+}  // namespace nacre

@@ -1,0 +1,13 @@
+#include "shading/shading_frame.hpp"
+
+namespace nacre {
+
+Mat3 shadingFrame(const Vec3& normal, const Vec4& tangent) {
+    const Vec3 n = glm::normalize(normal);
+    Vec3 t = Vec3(tangent) - n * glm::dot(n, Vec3(tangent));
+    if (glm::dot(t, t) < 1e-12) t = glm::cross(n, std::abs(n.x) < 0.5 ? Vec3(1, 0, 0) : Vec3(0, 1, 0));
+    t = glm::normalize(t);
+    return {t, glm::cross(n, t) * (tangent.w < 0 ? -1.0 : 1.0), n};
+}
+
+}  // namespace nacre
