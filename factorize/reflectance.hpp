@@ -19,7 +19,7 @@ using BrdfFunction = std::function<Rgb(const Vec3& wi, const Vec3& wo)>;
 /// A model of microfacet shape: f = diffuse(wi, wo) + fresnel(cosθd) · distribution(h) · visibility(wi, wo), where
 /// visibility is everything that depends on the elevations (G / (4 cosα cosβ) and its like) and is symmetric.
 struct MicrofacetPieces {
-    std::function<Rgb(double cosThetaD)> fresnel;       ///< specular colour included
+    std::function<Rgb(double cosThetaD)> fresnel;       ///< every factor of cosθd alone, specular colour too
     std::function<double(const Vec3& h)> distribution;  ///< may overflow towards +inf nowhere
     std::function<double(const Vec3& wi, const Vec3& wo)> visibility;
     std::function<Rgb(const Vec3& wi, const Vec3& wo)> diffuse;  ///< always set; may return 0

@@ -23,8 +23,12 @@ struct ModelInfo {
 const std::vector<ModelInfo>& listModels();
 
 /// \param text  name, then optionally ':' and comma-separated key=value; colours are r/g/b ("0.9/0.6/0.2") or one
-/// number \throws std::invalid_argument for unknown names, parameters, or values out of range; the message lists the
-/// known ones
+/// number.
+///        `sgd:NAME` is short for `sgd:material=NAME`.
+/// \return source = the canonical text, with every parameter to full precision; kind "analytic"; the pieces that apply.
+///         The formula of each model stands at the head of its family's .cpp (README.md lists them).
+/// \throws std::invalid_argument, one line, for unknown names and parameters (lists the known ones), and for values out
+///         of range (states the range)
 Reflectance makeModel(const std::string& text);
 
 }  // namespace nacre

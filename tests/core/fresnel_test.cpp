@@ -48,8 +48,9 @@ TEST(Fresnel, GrazingIsOneAndNormalIncidenceIsClosedForm) {
 }
 
 TEST(Fresnel,
-     NearlyNoInterfaceKeepsItsDigits) {  // F(normal) = ((η − 1)/(η + 1))² ≈ 2.5e-17, far below the rounding of g − c
-    const double eta = 1 + 1e-8, expected = normalReflectance(eta);
+     NearlyNoInterfaceKeepsItsDigits) {  // F(normal) = ((η − 1)/(η + 1))² ≈ 2.5e-25: g − c ≈ 1e-12 has four digits when
+                                         // subtracted
+    const double eta = 1 + 1e-12, expected = normalReflectance(eta);
     EXPECT_NEAR(fresnelDielectric(1, eta) / expected, 1, 1e-6);
     EXPECT_NEAR(fresnelConductor(1, eta, 0) / expected, 1, 1e-6);
 }
