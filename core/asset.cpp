@@ -49,7 +49,7 @@ static void requireStorable(const std::string& name, const Image& values, TexelF
         if (std::isfinite(v) && (format != TexelFormat::Half || std::abs(v) <= kHalfMax)) continue;
         const std::size_t texel = i / static_cast<std::size_t>(values.channels());
         const std::size_t width = static_cast<std::size_t>(values.width());
-        throw std::invalid_argument(
+        throw StorageError(
             fmt::format("texture {}: texel ({}, {}) channel {}: expected a finite value{}, found {}", name,
                         texel % width, texel / width, i % static_cast<std::size_t>(values.channels()),
                         format == TexelFormat::Half ? " of at most 65504 in magnitude for half storage" : "", v));
@@ -67,7 +67,8 @@ static void quantiseUnorm8(AssetTexture& texture) {
             high = std::max(high, texture.image.data()[i]);
         }
         const double range = static_cast<double>(high) - low;
-        require(range <= std::numeric_limits<float>::max(),
+        if (range > std::numeric_limits<float>::max())
+            throw StorageError(
                 fmt::format("texture {}: channel {}: range [{}, {}] too wide for unorm8", texture.name, c, low, high));
         texture.bias[c] = low;
         texture.scale[c] = static_cast<float>(range);

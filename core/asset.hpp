@@ -4,6 +4,7 @@
 
 #include <filesystem>
 #include <nlohmann/json.hpp>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -35,9 +36,15 @@ struct AssetTexture {
     std::size_t bytes() const { return image.data().size() * bytesPerChannel(format); }
 };
 
+/// Values that a texel format can't hold: the data's fault, where other std::invalid_argument are the caller's.
+class StorageError : public std::invalid_argument {
+public:
+    using std::invalid_argument::invalid_argument;
+};
+
 /// Quantises `values` to `format`. Half: rounds to nearest even. Unorm8: per-channel range of the values becomes
 /// bias and scale.
-/// \throws std::invalid_argument on non-finite values, and on half overflow (|v| > 65504), naming the texel
+/// \throws StorageError on non-finite values, and on half overflow (|v| > 65504), naming the texel
 AssetTexture makeTexture(std::string name, std::string mapping, const Image& values, TexelFormat format);
 
 /// Textures and what is known of them. meta holds at least `kind`; writeAsset adds format version, texture table and

@@ -1,0 +1,201 @@
+// nacre factorize: open, bake, measure what was written, write both.
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <chrono>
+#include <cmath>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <memory>
+
+#include "cli/terminal.hpp"
+#include "cli/truth.hpp"
+#include "cli/verb.hpp"
+#include "core/error.hpp"
+#include "factorize/factorize.hpp"
+#include "reference/brdf_metrics.hpp"
+
+namespace nacre::cli {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+
+namespace {
+
+struct Settings {
+    std::string source, output, format = "half";
+    FactorizeOptions options;
+    bool asJson = false;
+};
+
+class Stopwatch {
+public:
+    double seconds() const { return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count(); }
+
+private:
+    std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+};
+
+/// A file that is gone when the scope is left.
+struct ProvisionalFile {
+    fs::path path;
+    ~ProvisionalFile() {
+        std::error_code ignored;
+        fs::remove(path, ignored);
+    }
+};
+
+}  // namespace
+
+static json orNull(double value) { return std::isnan(value) ? json(nullptr) : json(value); }
+
+static json errorJson(const BrdfError& e, double reciprocityResidual) {
+    return {{"l2_rel", e.l2Rel},
+            {"log_rms", e.logRms},
+            {"max_rel", e.maxRel},
+            {"grazing_l2_rel", e.grazingL2Rel},
+            {"sphere_psnr", e.spherePsnr},
+            {"albedo_max_abs", e.albedoMaxAbs},
+            {"reciprocity_residual", orNull(reciprocityResidual)},
+            {"samples", e.samples},
+            {"negative", e.negative},
+            {"non_finite", e.nonFinite}};
+}
+
+static json dataJson(const DataReport& d) {
+    return {{"entries", d.entries},
+            {"missing", d.missing},
+            {"negative", d.negative},
+            {"non_finite", d.nonFinite},
+            {"rule", d.rule}};
+}
+
+static BrdfFunction functionOf(const FactoredBrdf& brdf) {
+    return [&brdf](const Vec3& wi, const Vec3& wo) { return evaluate(brdf, wi, wo); };
+}
+
+/// Fails before the bake when nothing can be written there.
+static void requireWritable(const std::string& output, const fs::path& provisional) {
+    std::error_code failure;
+    if (fs::exists(output, failure) && !fs::is_regular_file(output, failure))
+        throw Error(fmt::format("{}: can't write: expected a file or a free name, found a folder or device", output));
+    if (!std::ofstream(provisional)) throw Error(fmt::format("{}: can't write: {}", output, std::strerror(errno)));
+}
+
+/// The asset as it comes back from disk: what is measured is what a reader gets.
+static Asset throughFile(const Asset& asset, const fs::path& path) {
+    writeAsset(asset, path);
+    return readAsset(path);
+}
+
+static std::string summaryText(const std::string& output, const json& meta) {
+    const json& e = meta["error"];
+    const auto number = [&](const char* key) { return e[key].is_number() ? e[key].get<double>() : NAN; };
+    return fmt::format(
+        "{}: {} by {}, textures: {}, {}, fetches: {}, {:.2f} s\n"
+        "l2_rel {:.4g}  log_rms {:.4g}  max_rel {:.4g}  grazing_l2_rel {:.4g}  sphere {:.1f} dB  albedo {:.2g}\n",
+        output, meta.value("form", "?"), meta.value("method", "?"), meta["textures"].size(),
+        humanBytes(meta["bytes"].get<std::size_t>()), meta.value("fetches", 0), meta["seconds"].get<double>(),
+        number("l2_rel"), number("log_rms"), number("max_rel"), number("grazing_l2_rel"), number("sphere_psnr"),
+        number("albedo_max_abs"));
+}
+
+/// The budget search asks with the very samples of the final measurement, so that what it accepts holds.
+static std::function<double(const FactoredBrdf&)> budgetMeasure(const BrdfFunction& truth,
+                                                                const BrdfMetricOptions& metric) {
+    auto samples = std::make_shared<std::vector<TruthSample>>();
+    return [=](const FactoredBrdf& candidate) {
+        if (samples->empty()) *samples = sampleTruth(truth, metric);
+        return l2Rel(functionOf(candidate), *samples, metric.threads);
+    };
+}
+
+static void describe(json& meta, const Context& context, const Settings& s, const Reflectance& reflectance) {
+    meta["source"] = reflectance.source;
+    meta["source_kind"] = reflectance.kind;
+    meta["source_hash"] = reflectance.hash;
+    meta["isotropic"] = reflectance.isotropic;
+    meta["format"] = s.format;
+    meta["command_line"] = context.commandLine;
+    if (reflectance.data.entries > 0) meta["data"] = dataJson(reflectance.data);
+}
+
+static void runFactorize(const Context& context, Settings& s) {
+    const fs::path provisional = s.output + fmt::format(".{}.provisional", ::getpid());
+    const ProvisionalFile removeLater{provisional};
+    requireWritable(s.output, provisional);
+
+    const Stopwatch baking;
+    const Reflectance reflectance = openReflectance(s.source);
+    tellDataReport(reflectance);
+    const BrdfFunction truth = truthOf(reflectance);
+    BrdfMetricOptions metric;
+    metric.isotropic = reflectance.isotropic;
+    metric.threads = s.options.threads;
+    s.options.format = texelFormatFromString(s.format);
+    s.options.progress = terminalProgress(context.quiet);
+    s.options.measure = budgetMeasure(truth, metric);
+    const FactoredBrdf baked = factorize(reflectance, s.options);
+    const double seconds = baking.seconds();
+    endProgress();
+
+    Asset asset = toAsset(baked);
+    const Asset written = throughFile(asset, provisional);
+    const Stopwatch measuring;
+    const FactoredBrdf readBack = factoredFromAsset(written, provisional.string());
+    const BrdfError error = measureBrdf(functionOf(readBack), truth, metric);
+    if (s.options.maxError && error.l2Rel > *s.options.maxError)
+        throw Error(fmt::format("{}: expected l2_rel <= {}, found {:.4g}", s.output, *s.options.maxError, error.l2Rel));
+    describe(asset.meta, context, s, reflectance);
+    asset.meta["seconds"] = seconds;
+    asset.meta["measure_seconds"] = measuring.seconds();
+    asset.meta["error"] = errorJson(error, reflectance.reciprocityResidual);
+    const json meta = throughFile(asset, s.output).meta;
+    putData(s.asJson ? meta.dump(2) + "\n" : summaryText(s.output, meta));
+}
+
+static std::vector<std::string> methodNames() {
+    std::vector<std::string> names = {"auto"};
+    for (const FactorizeMethod& method : factorizeMethods()) names.push_back(method.name);
+    return names;
+}
+
+static std::string factorizeDetails() {
+    std::string text =
+        "SOURCE is a model (nacre models), a published fit (sgd:gold-paint), a MERL .binary, an RGL .bsdf, a .csv of\n"
+        "samples wi, wo, rgb, or a micro-geometry (micro:height.png,...). Methods:\n";
+    for (const FactorizeMethod& m : factorizeMethods())
+        text += fmt::format("  {:<14} {} [fits: {}]\n", m.name, m.summary, m.fits);
+    return text +
+           "The error is measured on the file as written, against reference/: l2_rel is relative, 0.017 = 1.7 %.";
+}
+
+Verb factorizeVerb(Context& context) {
+    const auto s = std::make_shared<Settings>();
+    FactorizeOptions& o = s->options;
+    const auto size = [&o](long long v) { o.size = static_cast<int>(v); };
+    const auto terms = [&o](long long v) { o.terms = static_cast<int>(v); };
+    const auto threads = [&o](long long v) { o.threads = static_cast<unsigned>(v); };
+    Verb verb{"factorize", "Bake a reflectance into lookup textures", factorizeDetails(), {}, {}};
+    verb.options = {
+        {"source", "SOURCE", "Model or file", into(s->source), true},
+        {"-o,--output", "OUT.exr", "The asset to write", into(s->output), true},
+        {"--method", "NAME", "Factorization (default auto)", into(o.method), false, methodNames()},
+        {"--size", "N", "Edge of the largest texture, 2 to 4096", integerInto(size, 2, 4096)},
+        {"--terms", "K", "Terms of the svd, harmonics of the fit, 1 to 4", integerInto(terms, 1, 4)},
+        {"--parametrization", "NAME", "Of the svd", into(o.parametrization), false, {"half_diff", "in_out"}},
+        {"--format", "NAME", "Storage (default half)", into(s->format), false, {"half", "float", "unorm8"}},
+        {"--max-error", "E", "Budget: largest l2_rel", positiveInto([&o](double v) { o.maxError = v; })},
+        {"--max-bytes", "B", "Budget: bytes of all textures",
+         integerInto([&o](long long v) { o.maxBytes = static_cast<std::size_t>(v); }, 1, 1ll << 40)},
+        {"--max-fetches", "F", "Budget: texture lookups an evaluation",
+         integerInto([&o](long long v) { o.maxFetches = static_cast<int>(v); }, 1, 64)},
+        {"--threads", "N", "0 = all cores; the same bits for any", integerInto(threads, 0, 1024)},
+        {"--json", "", "One JSON object on standard output", into(s->asJson)}};
+    verb.run = [s, &context] { runFactorize(context, *s); };
+    return verb;
+}
+
+}  // namespace nacre::cli

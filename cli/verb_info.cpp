@@ -1,0 +1,58 @@
+// nacre info: what an asset says of itself.
+#include <fmt/format.h>
+
+#include <memory>
+
+#include "cli/terminal.hpp"
+#include "cli/verb.hpp"
+#include "core/asset.hpp"
+
+namespace nacre::cli {
+
+using nlohmann::json;
+
+static std::string valueText(const json& value) { return value.is_string() ? value.get<std::string>() : value.dump(); }
+
+static std::string textureText(const AssetTexture& t) {
+    std::string out =
+        fmt::format("  {:<10} {:<22} {:>4} x {:<4} {} channels  {:<6} {:>10}", t.name, t.mapping, t.image.width(),
+                    t.image.height(), t.image.channels(), toString(t.format), humanBytes(t.bytes()));
+    if (t.format != TexelFormat::Unorm8) return out + "\n";
+    for (int c = 0; c < t.image.channels(); ++c)
+        out += fmt::format("  [{:.4g}, {:.4g}]", t.bias[c], t.bias[c] + t.scale[c]);
+    return out + "\n";
+}
+
+static std::string infoText(const std::string& path, const Asset& asset) {
+    std::string out =
+        fmt::format("{}: {}, {} in {} textures\n", path, asset.kind, humanBytes(asset.bytes()), asset.textures.size());
+    for (const AssetTexture& texture : asset.textures) out += textureText(texture);
+    for (const auto& [key, value] : asset.meta.items()) {
+        if (key == "textures" || key == "kind" || key == "bytes") continue;
+        if (!value.is_object()) {
+            out += fmt::format("{:<22} {}\n", key, valueText(value));
+            continue;
+        }
+        out += key + "\n";
+        for (const auto& [name, inner] : value.items()) out += fmt::format("  {:<20} {}\n", name, valueText(inner));
+    }
+    return out;
+}
+
+Verb infoVerb(Context&) {
+    struct Settings {
+        std::string file;
+        bool asJson = false;
+    };
+    const auto s = std::make_shared<Settings>();
+    Verb verb{"info", "Show what an asset says of itself: textures, source, measured error", "", {}, {}};
+    verb.options = {{"file", "FILE", "A baked asset", into(s->file), true},
+                    {"--json", "", "The asset's JSON on standard output", into(s->asJson)}};
+    verb.run = [s] {
+        const Asset asset = readAsset(s->file);
+        putData(s->asJson ? asset.meta.dump(2) + "\n" : infoText(s->file, asset));
+    };
+    return verb;
+}
+
+}  // namespace nacre::cli

@@ -1,0 +1,84 @@
+// nacre models, nacre methods: what can go in, and the ways it can come out.
+#include <fmt/format.h>
+
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "cli/terminal.hpp"
+#include "cli/verb.hpp"
+#include "factorize/factorize.hpp"
+#include "factorize/models/models.hpp"
+
+namespace nacre::cli {
+
+using nlohmann::json;
+
+static json modelJson(const ModelInfo& model) {
+    json parameters = json::array();
+    for (const ModelParameter& p : model.parameters)
+        parameters.push_back(
+            {{"name", p.name}, {"summary", p.summary}, {"range", p.range}, {"default", p.defaultValue}});
+    return {{"name", model.name}, {"summary", model.summary}, {"source", model.source}, {"parameters", parameters}};
+}
+
+static std::string modelText(const ModelInfo& model) {
+    std::string out = fmt::format("{}\n    {} [{}]\n", model.name, model.summary, model.source);
+    for (const ModelParameter& p : model.parameters)
+        out += fmt::format("    {:<12} {:<28} default {:<14} {}\n", p.name, p.range, p.defaultValue, p.summary);
+    return out;
+}
+
+/// The models whose name is `name`, or all when it is empty.
+static std::vector<ModelInfo> modelsNamed(const std::string& name) {
+    if (name.empty()) return listModels();
+    std::string known;
+    for (const ModelInfo& model : listModels()) {
+        if (model.name == name) return {model};
+        known += (known.empty() ? "" : ", ") + model.name;
+    }
+    throw UsageError(fmt::format("unknown model '{}', expected one of: {}", name, known));
+}
+
+Verb modelsVerb(Context&) {
+    struct Settings {
+        std::string name;
+        bool asJson = false;
+    };
+    const auto s = std::make_shared<Settings>();
+    Verb verb{"models", "List the analytic models with their parameters", "", {}, {}};
+    verb.details =
+        "A model is written NAME or NAME:KEY=VALUE,KEY=VALUE. Colours are one number or R/G/B.\n"
+        "Example: nacre factorize torrance-sparrow:alpha=0.1,f=conductor,eta=1.5,k=3 -o metal.exr";
+    verb.options = {{"name", "NAME", "Only this model", into(s->name)},
+                    {"--json", "", "One JSON array on standard output", into(s->asJson)}};
+    verb.run = [s] {
+        const std::vector<ModelInfo> models = modelsNamed(s->name);
+        json list = json::array();
+        std::string text;
+        for (const ModelInfo& model : models) {
+            list.push_back(modelJson(model));
+            text += modelText(model);
+        }
+        putData(s->asJson ? list.dump(2) + "\n" : text);
+    };
+    return verb;
+}
+
+Verb methodsVerb(Context&) {
+    const auto asJson = std::make_shared<bool>(false);
+    Verb verb{"methods", "List the factorizations and what they fit", "", {}, {}};
+    verb.options = {{"--json", "", "One JSON array on standard output", into(*asJson)}};
+    verb.run = [asJson] {
+        json list = json::array();
+        std::string text =
+            fmt::format("{:<14} {}\n", "auto", "the cheapest that meets the budget, else the most exact");
+        for (const FactorizeMethod& m : factorizeMethods()) {
+            list.push_back({{"name", m.name}, {"summary", m.summary}, {"fits", m.fits}});
+            text += fmt::format("{:<14} {} [fits: {}]\n", m.name, m.summary, m.fits);
+        }
+        putData(*asJson ? list.dump(2) + "\n" : text);
+    };
+    return verb;
+}
+
+}  // namespace nacre::cli

@@ -1,0 +1,260 @@
+// The nacre command from outside: exit codes, one-line messages, and what it leaves on disk when something fails.
+#include <gmock/gmock.h>
+
+#include <csignal>
+#include <nlohmann/json.hpp>
+#include <thread>
+
+#include "tests/cli/process.hpp"
+
+namespace nacre {
+namespace {
+
+using nlohmann::json;
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+using ::testing::Not;
+using ::testing::StartsWith;
+using tests::contents;
+using tests::nacre;
+using tests::Outcome;
+using tests::Scratch;
+using tests::start;
+using tests::Surroundings;
+using tests::waitFor;
+
+void expectFailure(const Outcome& outcome, int code, const std::vector<std::string>& fragments) {
+    EXPECT_EQ(outcome.code, code) << outcome.err;
+    EXPECT_THAT(outcome.err, StartsWith("nacre: "));
+    EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), 1) << outcome.err;
+    for (const std::string& fragment : fragments) EXPECT_THAT(outcome.err, HasSubstr(fragment));
+}
+
+std::vector<std::string> bake(const std::filesystem::path& output, std::vector<std::string> more = {}) {
+    std::vector<std::string> arguments = {"factorize", "blinn-phong:kd=0.2,ks=0.5,n=20", "-o", output.string()};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return arguments;
+}
+
+TEST(CommandUsage, HelpOfEveryVerbGoesToStandardOutput) {
+    for (const std::vector<std::string>& words : {std::vector<std::string>{"--help"},
+                                                  {"factorize", "--help"},
+                                                  {"info", "--help"},
+                                                  {"eval", "--help"},
+                                                  {"models", "--help"},
+                                                  {"methods", "--help"},
+                                                  {"--help-all"},
+                                                  {"--version"}}) {
+        const Outcome outcome = nacre(words);
+        EXPECT_EQ(outcome.code, 0) << words[0];
+        EXPECT_THAT(outcome.out, Not(IsEmpty())) << words[0];
+        EXPECT_THAT(outcome.err, IsEmpty()) << words[0];
+    }
+}
+
+TEST(CommandUsage, WrongUsageIsExitTwo) {
+    const Scratch scratch;
+    expectFailure(nacre({}), 2, {"expected a verb", "factorize, info, eval, models, methods"});
+    expectFailure(nacre({"frobnicate"}), 2, {"'frobnicate'", "factorize"});
+    expectFailure(nacre({"factorize", "lambert"}), 2, {"--output is required"});
+    expectFailure(nacre({"info"}), 2, {"file"});
+    expectFailure(nacre(bake(scratch / "a.exr", {"--frob"})), 2, {"--frob"});
+    expectFailure(nacre(bake(scratch / "a.exr", {"--size", "1"})), 2, {"--size", "2 to 4096", "'1'"});
+    expectFailure(nacre(bake(scratch / "a.exr", {"--size", "64x"})), 2, {"--size", "'64x'"});
+    expectFailure(nacre(bake(scratch / "a.exr", {"--format", "bc6"})), 2, {"--format", "half", "float", "unorm8"});
+    expectFailure(nacre(bake(scratch / "a.exr", {"--method", "magic"})), 2, {"--method", "auto"});
+    expectFailure(nacre(bake(scratch / "a.exr", {"--max-error", "-1"})), 2, {"--max-error", "'-1'"});
+    expectFailure(nacre(bake(scratch / "a.exr", {"--max-error", "nan"})), 2, {"--max-error", "'nan'"});
+    EXPECT_EQ(scratch.fileCount(), 0u);
+}
+
+TEST(CommandUsage, UnknownModelAndParameterListTheKnown) {
+    const Scratch scratch;
+    const std::string out = (scratch / "a.exr").string();
+    expectFailure(nacre({"factorize", "no-such-model", "-o", out}), 2, {"no-such-model", "lambert", "ward"});
+    expectFailure(nacre({"factorize", "lambert:shine=1", "-o", out}), 2, {"shine", "kd"});
+    expectFailure(nacre({"factorize", "lambert:kd=-1", "-o", out}), 2, {"kd", "-1"});
+    expectFailure(nacre({"models", "no-such-model"}), 2, {"no-such-model", "lambert"});
+    EXPECT_EQ(scratch.fileCount(), 0u);
+}
+
+TEST(CommandModels, ListsNamesRangesAndDefaults) {
+    EXPECT_THAT(nacre({"models"}).out, AllOf(HasSubstr("torrance-sparrow"), HasSubstr("alpha"), HasSubstr("default")));
+    const json list = json::parse(nacre({"models", "--json"}).out);
+    ASSERT_GE(list.size(), 8u);
+    for (const json& model : list) {
+        EXPECT_TRUE(model["name"].is_string() && model["parameters"].is_array());
+        for (const json& p : model["parameters"]) EXPECT_TRUE(p.contains("range") && p.contains("default")) << p;
+    }
+    EXPECT_GE(json::parse(nacre({"methods", "--json"}).out).size(), 1u);
+}
+
+TEST(CommandFactorize, JsonHasWhatTheDocumentationNames) {
+    const Scratch scratch;
+    const Outcome outcome = nacre(bake(scratch / "a.exr", {"--json"}));
+    ASSERT_EQ(outcome.code, 0) << outcome.err;
+    const json object = json::parse(outcome.out);
+    for (const char* key : {"kind", "source", "method", "fetches", "bytes", "seconds", "error", "command_line", "nacre",
+                            "source_hash", "form", "textures", "version"})
+        EXPECT_TRUE(object.contains(key)) << key;
+    for (const char* key : {"l2_rel", "log_rms", "max_rel", "grazing_l2_rel", "sphere_psnr", "albedo_max_abs",
+                            "reciprocity_residual", "samples", "negative", "non_finite"})
+        EXPECT_TRUE(object["error"].contains(key)) << key;
+    EXPECT_EQ(object["kind"], "brdf");
+    EXPECT_EQ(object["error"]["non_finite"], 0);
+    EXPECT_GT(object["error"]["samples"], 100000);
+    EXPECT_THAT(object["command_line"].get<std::string>(), HasSubstr("nacre factorize blinn-phong:"));
+    EXPECT_EQ(scratch.fileCount(), 1u) << "no provisional file stays";
+    EXPECT_EQ(json::parse(nacre({"info", (scratch / "a.exr").string(), "--json"}).out), object);
+}
+
+TEST(CommandFactorize, SameBytesForAnyThreadCount) {
+    const Scratch scratch;
+    json one = json::parse(nacre(bake(scratch / "1.exr", {"--json", "--threads", "1"})).out);
+    json two = json::parse(nacre(bake(scratch / "2.exr", {"--json", "--threads", "2"})).out);
+    for (const char* key : {"seconds", "measure_seconds", "command_line"}) one.erase(key), two.erase(key);
+    EXPECT_EQ(one, two);
+}
+
+TEST(CommandFactorize, BudgetThatCannotBeMetFails) {
+    const Scratch scratch;
+    const Outcome outcome = nacre(bake(scratch / "a.exr", {"--max-bytes", "1", "--max-error", "1e-9"}));
+    EXPECT_EQ(outcome.code, 1) << outcome.err;
+    EXPECT_EQ(scratch.fileCount(), 0u);
+}
+
+TEST(CommandFactorize, MissingAndBrokenSources) {
+    const Scratch scratch;
+    const std::string out = (scratch / "a.exr").string();
+    expectFailure(nacre({"factorize", (scratch / "none.binary").string(), "-o", out}), 1,
+                  {"none.binary", "found none"});
+    std::ofstream(scratch / "bad.binary", std::ios::binary) << std::string("\x01\0\0\0\x02\0\0\0\x03\0\0\0", 12);
+    expectFailure(nacre({"factorize", (scratch / "bad.binary").string(), "-o", out}), 1,
+                  {"bad.binary", "expected", "found"});
+    std::ofstream(scratch / "cut.bsdf", std::ios::binary) << "tensor_file\0\1";
+    expectFailure(nacre({"factorize", (scratch / "cut.bsdf").string(), "-o", out}), 1, {"cut.bsdf"});
+    EXPECT_EQ(scratch.fileCount(), 2u);
+}
+
+TEST(CommandFullDisk, DevFullAsOutput) {
+    expectFailure(nacre({"factorize", "lambert", "-o", "/dev/full"}), 1, {"/dev/full", "can't write"});
+    EXPECT_TRUE(std::filesystem::is_character_file("/dev/full"));
+}
+
+TEST(CommandFullDisk, WriteThatFailsHalfWayLeavesNothing) {
+    const Scratch scratch;
+    Surroundings small;
+    small.fileSize = 1000;  // smaller than any asset
+    expectFailure(nacre(bake(scratch / "a.exr"), small), 1, {"can't write", "too large"});
+    EXPECT_EQ(scratch.fileCount(), 0u);
+}
+
+TEST(CommandFullDisk, StandardOutputThatIsFull) {
+    Surroundings full;
+    full.stdoutPath = "/dev/full";
+    expectFailure(nacre({"models"}, full), 1, {"standard output", "No space left"});
+}
+
+TEST(CommandOutput, UnwritableAndMissingFolders) {
+    const Scratch scratch;
+    std::filesystem::permissions(scratch.folder(), std::filesystem::perms::owner_exec);
+    Surroundings nobody;
+    nobody.asNobody = true;
+    expectFailure(nacre(bake(scratch / "a.exr"), nobody), 1, {"a.exr: can't write", "Permission denied"});
+    expectFailure(nacre(bake("/no/such/folder/a.exr")), 1, {"/no/such/folder/a.exr", "No such file"});
+}
+
+TEST(CommandOutput, KilledMidwayLeavesNoFinalFile) {
+    const Scratch scratch, io;
+    for (const int milliseconds : {1, 5, 20, 60, 150}) {
+        const pid_t child = start(bake(scratch / "a.exr"), {}, io);
+        std::this_thread::sleep_for(std::chrono::milliseconds(milliseconds));
+        ::kill(child, SIGKILL);
+        if (waitFor(child) == 0) break;  // it was faster: the file is complete
+        if (std::filesystem::exists(scratch / "a.exr")) {
+            EXPECT_EQ(nacre({"info", (scratch / "a.exr").string()}).code, 0) << "what has the final name is complete";
+            break;
+        }
+    }
+}
+
+TEST(CommandInfo, TruncatedAtEveryTenth) {
+    const Scratch scratch;
+    ASSERT_EQ(nacre(bake(scratch / "a.exr")).code, 0);
+    const std::string whole = contents(scratch / "a.exr");
+    for (std::size_t tenth = 0; tenth < 10; ++tenth) {
+        std::ofstream(scratch / "cut.exr", std::ios::binary) << whole.substr(0, whole.size() * tenth / 10);
+        expectFailure(nacre({"info", (scratch / "cut.exr").string()}), 1, {"cut.exr", "expected", "found"});
+    }
+}
+
+TEST(CommandInfo, WhatIsNoAsset) {
+    const Scratch scratch;
+    std::ofstream(scratch / "a.exr") << "nothing like it";
+    expectFailure(nacre({"info", (scratch / "a.exr").string()}), 1, {"a.exr", "OpenEXR"});
+    expectFailure(nacre({"info", (scratch / "none.exr").string()}), 1, {"none.exr", "found none"});
+    expectFailure(nacre({"eval", scratch.folder().string()}), 1, {"folder"});
+}
+
+class CommandEval : public ::testing::Test {
+protected:
+    static constexpr const char* kSource = "blinn-phong:kd=0.2,ks=0.5,n=20";
+    Outcome eval(const std::string& input, bool withTruth = false) {
+        if (!std::filesystem::exists(scratch / "a.exr")) {
+            EXPECT_EQ(nacre(bake(scratch / "a.exr")).code, 0);
+        }
+        std::vector<std::string> arguments = {"eval", (scratch / "a.exr").string()};
+        if (withTruth) arguments.insert(arguments.end(), {"--source", kSource});
+        Surroundings setup;
+        setup.input = input;
+        return nacre(arguments, setup);
+    }
+    const Scratch scratch;
+};
+
+TEST_F(CommandEval, SkipsHeaderCommentsAndBlankLines) {
+    const Outcome outcome =
+        eval("# directions\n\nwix,wiy,wiz,wox,woy,woz\r\n0,0,1,0,0,1\r\n  \n 0.6, 0, 0.8, 0, 0.6, 0.8");
+    EXPECT_EQ(outcome.code, 0) << outcome.err;
+    EXPECT_EQ(std::count(outcome.out.begin(), outcome.out.end(), '\n'), 2) << outcome.out;
+}
+
+TEST_F(CommandEval, TruthStandsBesideTheBake) {
+    const Outcome outcome = eval("0,0,1,0,0,1\n0.6,0,0.8,-0.6,0,0.8\n", true);
+    EXPECT_EQ(outcome.code, 0) << outcome.err;
+    std::istringstream lines(outcome.out);
+    for (std::string line; std::getline(lines, line);) {
+        double v[6] = {};
+        ASSERT_EQ(std::sscanf(line.c_str(), "%lf,%lf,%lf,%lf,%lf,%lf", v, v + 1, v + 2, v + 3, v + 4, v + 5), 6);
+        constexpr double kBake = 0.02;  // relative, at the peak of the lobe, whichever method auto picks
+        for (int c = 0; c < 3; ++c) EXPECT_NEAR(v[c] / v[c + 3], 1, kBake) << line;
+    }
+}
+
+TEST_F(CommandEval, BelowTheHorizonIsBlack) { EXPECT_EQ(eval("0,0,-1,0,0,1\n").out, "0,0,0\n"); }
+
+TEST_F(CommandEval, BadLinesAreNamed) {
+    expectFailure(eval("0,0,1,0,0,1\n0,0,1,0,0\n"), 1, {"line 2", "six numbers", "0,0,1,0,0"});
+    expectFailure(eval("0,0,1,0,0,1\n\n0,0,1,0,0,1,7\n"), 1, {"line 3"});
+    expectFailure(eval("0,0,1,0,0,1\nwix,wiy,wiz,wox,woy,woz\n"), 1, {"line 2"});
+    expectFailure(eval("0,0,2,0,0,1\n"), 1, {"line 1", "wi of length 1"});
+    expectFailure(eval("0,0,1,0,0,nan\n"), 1, {"line 1", "wo of length 1"});
+    expectFailure(eval("0,0,1,0,0,0x1\n"), 1, {"line 1"});
+    expectFailure(eval(std::string(200000, '7')), 1, {"line"});
+    EXPECT_EQ(eval("").code, 0) << "nothing asked, nothing answered";
+}
+
+TEST_F(CommandEval, ManyLinesCrossBatches) {
+    constexpr int kLines = 150000;  // more than two batches of 65536
+    std::string input;
+    for (int i = 0; i < kLines; ++i) input += i % 2 ? "0,0,1,0,0,1\n" : "0.6,0,0.8,0,0.6,0.8\n";
+    const Outcome outcome = eval(input);
+    EXPECT_EQ(outcome.code, 0) << outcome.err;
+    EXPECT_EQ(std::count(outcome.out.begin(), outcome.out.end(), '\n'), kLines);
+    const std::string pair = eval("0.6,0,0.8,0,0.6,0.8\n0,0,1,0,0,1\n").out;
+    EXPECT_EQ(outcome.out.substr(outcome.out.size() - pair.size()), pair);
+}
+
+}  // namespace
+}  // namespace nacre
