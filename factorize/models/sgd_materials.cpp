@@ -1,7 +1,7 @@
 // Fitted parameters of measured materials, published with M. M. Bagher, C. Soler, N. Holzschuch, "Accurate fitting of
 // measured reflectances using a Shifted Gamma micro-facet distribution", Computer Graphics Forum 31(4), 2012; the
 // measurements are those of the MERL database (Matusik et al. 2003). Figures only, three channels each.
-// Chosen: varied classes, albedo ≤ 1 up to 85 degrees, and channels that agree with each other.
+// Chosen for varied classes, and for albedos that stay below 0.6 up to 89 degrees.
 #include "factorize/models/sgd.hpp"
 
 namespace nacre {

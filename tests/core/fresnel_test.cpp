@@ -47,12 +47,15 @@ TEST(Fresnel, GrazingIsOneAndNormalIncidenceIsClosedForm) {
     EXPECT_EQ(fresnelSchlick(0.5, Rgb(0.2, 0.5, 1)).g, 0.5 + 0.5 * schlickWeight(0.5));
 }
 
-TEST(Fresnel,
-     NearlyNoInterfaceKeepsItsDigits) {  // F(normal) = ((η − 1)/(η + 1))² ≈ 2.5e-25: g − c ≈ 1e-12 has four digits when
-                                         // subtracted
-    const double eta = 1 + 1e-12, expected = normalReflectance(eta);
-    EXPECT_NEAR(fresnelDielectric(1, eta) / expected, 1, 1e-6);
-    EXPECT_NEAR(fresnelConductor(1, eta, 0) / expected, 1, 1e-6);
+// To first order in κ = η² − 1: g − c = κ/(2c), so F = ½ (κ/(4c²))² (1 + (2c² − 1)²). Subtracting c from g would leave
+// three digits of it.
+TEST(Fresnel, NearlyNoInterfaceKeepsItsDigits) {
+    const double eta = 1 + 1e-12, kappa = (eta - 1) * (eta + 1);
+    for (double c : {0.3, 0.7, 1.0}) {
+        const double expected = 0.5 * sqr(kappa / (4 * c * c)) * (1 + sqr(2 * c * c - 1));
+        EXPECT_NEAR(fresnelDielectric(c, eta) / expected, 1, 1e-9) << c;
+        EXPECT_NEAR(fresnelConductor(c, eta, 0) / expected, 1, 1e-9) << c;
+    }
 }
 
 TEST(Fresnel, TotalInternalReflection) {  // η = 1/1.5: critical angle asin(1/1.5), cos = 0.745
