@@ -9,6 +9,7 @@
 #include <sstream>
 
 #include "core/error.hpp"
+#include "factorize/models/sgd.hpp"
 
 namespace nacre {
 namespace {
@@ -122,6 +123,35 @@ GpuDirectBrdf ashikhminShirley(const Canonical& text) {
     return make({{"NACRE_DIRECT", "NACRE_DIRECT_ASHIKHMIN_SHIRLEY"}}, c);
 }
 
+GpuDirectBrdf schlick(const Canonical& text) {
+    Constants c;
+    c.first = {text.number("r"), text.number("p"), 0, 0};
+    c.diffuse = text.color("kd") / kPi;
+    c.eta = text.color("f0");
+    return make({{"NACRE_DIRECT", "NACRE_DIRECT_SCHLICK"}}, c);
+}
+
+GpuDirectBrdf banks(const Canonical& text) {
+    Constants c;
+    c.first.x = text.number("n");
+    c.diffuse = text.color("kd");
+    c.ks = text.color("ks");
+    return make({{"NACRE_DIRECT", "NACRE_DIRECT_BANKS"}}, c);
+}
+
+GpuDirectBrdf sgd(const Canonical& text) {
+    const auto materials = sgdMaterials();
+    const auto at = std::find_if(materials.begin(), materials.end(), [&text](const SgdMaterial& material) {
+        return material.name == text.text("material");
+    });
+    require(at != materials.end(), "directBrdf: unknown material " + text.text("material"));
+    const Rgb values[] = {Rgb(0), at->rhoD / kPi, at->rhoS,   at->alpha, at->p, at->f0,
+                          at->f1, at->kap,        at->lambda, at->c,     at->k, at->theta0};
+    std::array<glm::vec4, kDirectParams> params{};
+    for (std::size_t i = 0; i < std::size(values); ++i) params[i] = glm::vec4(glm::vec3(values[i]), 0);
+    return {{{"NACRE_DIRECT", "NACRE_DIRECT_SGD"}}, params};
+}
+
 }  // namespace
 
 std::optional<GpuDirectBrdf> directBrdf(const Reflectance& reflectance) {
@@ -132,6 +162,9 @@ std::optional<GpuDirectBrdf> directBrdf(const Reflectance& reflectance) {
         return microfacet(text, reflectance.microfacet.value());
     if (text.name() == "ward") return ward(text);
     if (text.name() == "ashikhmin-shirley") return ashikhminShirley(text);
+    if (text.name() == "schlick") return schlick(text);
+    if (text.name() == "banks") return banks(text);
+    if (text.name() == "sgd") return sgd(text);
     return {};
 }
 

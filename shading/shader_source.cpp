@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cstdlib>
+#include <optional>
 #include <regex>
 #include <sstream>
 
@@ -52,6 +53,16 @@ std::size_t fileNumber(std::vector<std::string>& files, const std::string& name)
     return files.size() - 1;
 }
 
+std::optional<ShaderText> findShader(const std::vector<fs::path>& folders, const std::string& file) {
+    std::error_code ignored;
+    for (const fs::path& folder : folders) {
+        if (!fs::is_regular_file(folder / file, ignored)) continue;
+        const std::vector<std::uint8_t> bytes = readFile(folder / file, kMaxShaderBytes);
+        return ShaderText{file, std::string(bytes.begin(), bytes.end())};
+    }
+    return {};
+}
+
 void append(Assembly& out, const ShaderText& shader);
 
 void appendInclude(Assembly& out, const ShaderText& shader, const std::string& line, int number) {
@@ -65,11 +76,12 @@ void appendInclude(Assembly& out, const ShaderText& shader, const std::string& l
         out.source.text += '\n';
         return;
     }
-    try {
-        append(out, readShader(out.folders, file));
-    } catch (const Error& error) {
-        throw Error(fmt::format("{}: {}", where, error.what()));
+    const std::optional<ShaderText> included = findShader(out.folders, file);
+    if (!included) {  // an #if may leave this line out, so the compiler decides
+        out.source.text += fmt::format("#error no shader file {} in {}\n", file, listFolders(out.folders));
+        return;
     }
+    append(out, *included);
     const std::size_t self = fileNumber(out.source.files, shader.name);
     out.source.text += fmt::format("#line {} {}\n", number + 1, self);
 }
@@ -137,12 +149,7 @@ fs::path shaderFolder() {
 }
 
 ShaderText readShader(const std::vector<fs::path>& folders, const std::string& file) {
-    std::error_code ignored;
-    for (const fs::path& folder : folders) {
-        if (!fs::is_regular_file(folder / file, ignored)) continue;
-        const std::vector<std::uint8_t> bytes = readFile(folder / file, kMaxShaderBytes);
-        return {file, std::string(bytes.begin(), bytes.end())};
-    }
+    if (std::optional<ShaderText> found = findShader(folders, file)) return *found;
     throw Error(fmt::format("no shader file {} in {}", file, listFolders(folders)));
 }
 

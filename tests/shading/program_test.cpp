@@ -85,13 +85,25 @@ TEST_F(ShaderSourceTest, LinkErrorIsReported) {
     EXPECT_THAT(log, HasSubstr("vertex.glsl and main do not link"));
 }
 
-TEST_F(ShaderSourceTest, MissingAndMalformedIncludesNameTheirLine) {
+TEST_F(ShaderSourceTest, MalformedIncludeNamesItsLine) {
     const auto assemble = [&](const std::string& text) {
         return messageOf([&] { assembleShader({folder_}, {"main", text}, Glsl::V330); });
     };
-    EXPECT_THAT(assemble("\n#include \"gone.glsl\"\n"),
-                HasSubstr("main:2: no shader file gone.glsl in " + folder_.string()));
     EXPECT_THAT(assemble("#include <gone.glsl>\n"), HasSubstr("main:1: expected #include \"file\""));
+}
+
+TEST_F(ShaderSourceTest, MissingIncludeFailsOnlyWhereItIsTaken) {
+    write("vertex.glsl", "void main() { gl_Position = vec4(0.0); }\n");
+    test::context();
+    const ProgramLoader loader(Glsl::V330, {folder_});
+    const auto text = [](const char* condition) {
+        return std::string("out vec4 c;\n#if ") + condition +
+               "\n#include \"gone.glsl\"\n#endif\nvoid main() { c = vec4(1.0); }\n";
+    };
+    EXPECT_NO_THROW(loader.compile("vertex.glsl", {"main", text("0")}));
+    const std::string log = messageOf([&] { loader.compile("vertex.glsl", {"main", text("1")}); });
+    EXPECT_THAT(log, HasSubstr("main:3:"));
+    EXPECT_THAT(log, HasSubstr("no shader file gone.glsl in " + folder_.string()));
 }
 
 TEST(NameFilesInLog, KnowsThreeDrivers) {

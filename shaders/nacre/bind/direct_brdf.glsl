@@ -10,6 +10,9 @@
 #define NACRE_DIRECT_MICROFACET 3  // torrance-sparrow, cook-torrance, ggx
 #define NACRE_DIRECT_WARD 4
 #define NACRE_DIRECT_ASHIKHMIN_SHIRLEY 5
+#define NACRE_DIRECT_SCHLICK 6
+#define NACRE_DIRECT_BANKS 7
+#define NACRE_DIRECT_SGD 8
 
 #define NACRE_D_BECKMANN 0
 #define NACRE_D_GGX 1
@@ -26,7 +29,7 @@
 #define NACRE_WARD_GMD 2
 
 // 0: widths or exponents x, y; scale of the distribution; factor of the visibility. 1: kd/pi. 2: ks, with any
-// normalisation. 3: eta, f0, rs or the lobe's axis. 4: k.
+// normalisation. 3: eta, f0, rs or the lobe's axis. 4: k. SGD: nacre/direct_sgd.glsl.
 uniform vec4 nacre_direct_params[16];
 
 #if NACRE_DIRECT == NACRE_DIRECT_MICROFACET
@@ -79,6 +82,12 @@ vec3 nacre_direct_fresnel(float c) {
 #include "nacre/direct_ward.glsl"
 #elif NACRE_DIRECT == NACRE_DIRECT_ASHIKHMIN_SHIRLEY
 #include "nacre/direct_ashikhmin_shirley.glsl"
+#elif NACRE_DIRECT == NACRE_DIRECT_SCHLICK
+#include "nacre/direct_schlick.glsl"
+#elif NACRE_DIRECT == NACRE_DIRECT_BANKS
+#include "nacre/direct_banks.glsl"
+#elif NACRE_DIRECT == NACRE_DIRECT_SGD
+#include "nacre/direct_sgd.glsl"
 #elif NACRE_DIRECT != NACRE_DIRECT_LAMBERT
 #include "nacre/direct_phong.glsl"
 #endif
@@ -110,6 +119,12 @@ vec3 nacre_direct_brdf(vec3 wi, vec3 wo) {
 #endif
 #elif NACRE_DIRECT == NACRE_DIRECT_ASHIKHMIN_SHIRLEY
     return nacre_ashikhmin_shirley(wi, wo, first.xy, first.z, nacre_direct_params[3].rgb, diffuse);
+#elif NACRE_DIRECT == NACRE_DIRECT_SCHLICK
+    return diffuse + nacre_schlick(wi, wo, first.x, first.y, nacre_direct_params[3].rgb);
+#elif NACRE_DIRECT == NACRE_DIRECT_BANKS
+    return nacre_banks(wi.x, wo.x, first.x, diffuse, ks);
+#elif NACRE_DIRECT == NACRE_DIRECT_SGD
+    return diffuse + nacre_sgd(wi, wo, nacre_direct_params);
 #endif
 }
 

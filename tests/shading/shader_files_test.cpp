@@ -1,0 +1,193 @@
+// What every file of shaders/ must keep to: three dialects, guards, plain ASCII, uniforms in nacre/bind alone, and the
+// contract.
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <regex>
+#include <set>
+
+#include "core/file.hpp"
+#include "factorize/models/models.hpp"
+#include "gpu_evaluate.hpp"
+#include "shading/gpu_direct_brdf.hpp"
+
+namespace nacre {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::vector<std::string> shaderFiles(const std::string& under = "") {
+    std::vector<std::string> out;
+    for (const auto& entry : fs::recursive_directory_iterator(shaderFolder() / under))
+        if (entry.path().extension() == ".glsl") out.push_back(fs::relative(entry.path(), shaderFolder()).string());
+    std::sort(out.begin(), out.end());
+    return out;
+}
+
+bool startsWith(const std::string& text, const std::string& start) { return text.rfind(start, 0) == 0; }
+
+std::string textOf(const std::string& file) { return readShader({shaderFolder()}, file).text; }
+
+const std::pair<GlApi, Glsl> kDialects[] = {
+    {GlApi::Core45, Glsl::V330}, {GlApi::Core45, Glsl::V450}, {GlApi::Es3, Glsl::Es300}};
+
+/// The #defines under which a file of nacre/bind is compiled: each choice it knows whose files are there.
+std::vector<ShaderDefines> factoredChoices() {
+    std::vector<ShaderDefines> out;
+    for (const char* form : {"half_diff", "cosine", "single_lobe", "tangent", "homomorphic", "separable"}) {
+        if (!fs::exists(shaderFolder() / "nacre" / (std::string("factored_") + form + ".glsl"))) continue;
+        std::string name = std::string("NACRE_FORM_") + form;
+        std::transform(name.begin(), name.end(), name.begin(), [](unsigned char c) { return std::toupper(c); });
+        out.push_back({{"NACRE_FORM", name}});
+    }
+    return out;
+}
+
+std::vector<ShaderDefines> directChoices() {
+    std::vector<ShaderDefines> out;
+    for (const ModelInfo& info : listModels()) out.push_back(directBrdf(makeModel(info.name))->defines());
+    for (const char* text : {"torrance-sparrow:d=ggx,f=conductor,eta=1/2/3", "torrance-sparrow:d=gaussian,f=schlick",
+                             "torrance-sparrow:g=v-cavity,f=none,eta=1/2/3", "torrance-sparrow:eta=1/2/3",
+                             "torrance-sparrow:f=conductor", "ggx:g=smith", "ward:variant=duer", "ward:variant=gmd"})
+        out.push_back(directBrdf(makeModel(text))->defines());
+    return out;
+}
+
+std::vector<ShaderDefines> choicesFor(const std::string& file) {
+    if (file == "nacre/bind/factored_brdf.glsl") return factoredChoices();
+    if (file == "nacre/bind/direct_brdf.glsl") return directChoices();
+    if (file == "nacre/bind/brdf.glsl") {
+        std::vector<ShaderDefines> out = factoredChoices();
+        for (ShaderDefines& defines : directChoices()) out.push_back(std::move(defines));
+        return out;
+    }
+    return {{}};
+}
+
+TEST(ShaderFiles, EveryLibraryFileCompilesInThreeDialects) {
+    setenv("MESA_SHADER_CACHE_DISABLE", "true", 1);
+    const auto files = shaderFiles("nacre");
+    EXPECT_GE(files.size(), 10u);
+    for (const auto& [api, dialect] : kDialects) {
+        test::context(api);
+        for (const std::string& file : files)
+            for (const ShaderDefines& defines : choicesFor(file)) {
+                const ShaderText entry{
+                    "entry", "#include \"" + file + "\"\nout vec4 color;\nvoid main() { color = vec4(1.0); }\n"};
+                EXPECT_NO_THROW(checkCompiles(assembleShader({shaderFolder()}, entry, dialect, defines)))
+                    << file << " as " << toString(dialect);
+            }
+    }
+}
+
+struct ProgramCase {
+    std::string vertex, fragment;
+    std::vector<ShaderDefines> choices;
+};
+
+/// Every program of the runtime in every variant. A .frag.glsl that is missing here fails the test below.
+std::vector<ProgramCase> programs() {
+    std::vector<ProgramCase> out;
+    const std::vector<ShaderDefines> brdfs = choicesFor("nacre/bind/brdf.glsl");
+    out.push_back({"lit.vert.glsl", "lit.frag.glsl", brdfs});
+    out.push_back({"lit_vertex.vert.glsl", "lit_vertex.frag.glsl", brdfs});
+    std::vector<ShaderDefines> matrix;
+    for (ShaderDefines defines : factoredChoices())
+        if (defines[0].second == "NACRE_FORM_COSINE" || defines[0].second == "NACRE_FORM_TANGENT") {
+            defines.push_back({"NACRE_TEXTURE_MATRIX", "1"});
+            matrix.push_back(defines);
+        }
+    out.push_back({"lit_matrix.vert.glsl", "lit_matrix.frag.glsl", matrix});
+    return out;
+}
+
+/// "vec4" or "vec4[16]" for each uniform that the contract names.
+std::map<std::string, std::string> contract() {
+    const nlohmann::json json = nlohmann::json::parse(textOf("nacre/contract.json"));
+    std::map<std::string, std::string> out;
+    for (const auto& [file, uniforms] : json.at("uniforms").items())
+        for (const auto& [name, type] : uniforms.items()) out[name] = type.get<std::string>();
+    return out;
+}
+
+TEST(Contract, HoldsEveryActiveUniformOfEveryProgram) {
+    const auto known = contract();
+    std::set<std::string> fragments;
+    for (const auto& [api, dialect] : kDialects) {
+        test::context(api);
+        const ProgramLoader loader(dialect);
+        for (const ProgramCase& program : programs()) {
+            fragments.insert(program.fragment);
+            for (const ShaderDefines& defines : program.choices) {
+                const Program linked =
+                    loader.compile(program.vertex, readShader({shaderFolder()}, program.fragment), defines);
+                for (const ActiveUniform& uniform : linked.activeUniforms()) {
+                    ASSERT_EQ(known.count(uniform.name), 1u) << uniform.name << " in " << program.fragment;
+                    const std::string type = known.at(uniform.name), base = type.substr(0, type.find('['));
+                    EXPECT_EQ(uniform.type, base) << uniform.name;
+                    const int declared = base == type ? 1 : std::stoi(type.substr(base.size() + 1));
+                    EXPECT_LE(uniform.count, declared) << uniform.name;  // drivers cut arrays to what is used
+                }
+            }
+        }
+    }
+    for (const std::string& file : shaderFiles()) {
+        if (file.find(".frag.glsl") == std::string::npos) continue;
+        EXPECT_EQ(fragments.count(file), 1u) << file << " is in no case";
+    }
+}
+
+// Both ways: drivers drop unused uniforms, so this looks at the sources.
+TEST(Contract, IsWhatTheSourcesDeclare) {
+    const nlohmann::json uniforms = nlohmann::json::parse(textOf("nacre/contract.json")).at("uniforms");
+    nlohmann::json declared = nlohmann::json::object();
+    for (const std::string& file : shaderFiles())
+        for (const UniformDeclaration& u : declaredUniforms(textOf(file))) {
+            EXPECT_TRUE(startsWith(file, "nacre/bind/")) << file << " declares " << u.name;
+            EXPECT_TRUE(startsWith(u.name, "nacre_")) << u.name;
+            declared[file][u.name] = u.arrayText.empty() ? u.type : u.type + "[" + u.arrayText + "]";
+        }
+    EXPECT_EQ(uniforms, declared) << declared.dump(2);
+}
+
+TEST(ShaderFiles, KeepToTheHouseStyle) {
+    for (const std::string& file : shaderFiles()) {
+        const std::string text = textOf(file);
+        EXPECT_TRUE(std::all_of(text.begin(), text.end(), [](char c) { return c == '\n' || (c >= ' ' && c <= '~'); }))
+            << file << " has a character that is no plain ASCII";
+        EXPECT_EQ(text.find("#version"), std::string::npos) << file;
+        if (!startsWith(file, "nacre/")) continue;
+        std::string guard = file.substr(0, file.size() - 5) + "_GLSL";
+        std::transform(guard.begin(), guard.end(), guard.begin(),
+                       [](unsigned char c) { return c == '/' ? '_' : std::toupper(c); });
+        EXPECT_NE(text.find("#ifndef " + guard + "\n#define " + guard + "\n"), std::string::npos)
+            << file << ": " << guard;
+        EXPECT_FALSE(std::regex_search(text, std::regex(R"(\bvoid\s+main\b)"))) << file;
+    }
+}
+
+// Every GLSL function that the library offers is named in a test or reached from one that is: here, that each is
+// called from another shader or from the tests' own GLSL.
+TEST(ShaderFiles, EveryFunctionIsUsed) {
+    const std::regex function(R"(\n(?:vec[234]|mat[34]|float|int|bool)\s+(nacre_\w+)\s*\()");
+    std::string everything;
+    for (const std::string& file : shaderFiles()) everything += textOf(file);
+    for (const auto& entry : fs::recursive_directory_iterator(NACRE_SOURCE_DIR "/tests/shading"))
+        if (entry.is_regular_file()) {
+            const auto bytes = readFile(entry.path(), 1 << 20);
+            everything.append(bytes.begin(), bytes.end());
+        }
+    for (const std::string& file : shaderFiles("nacre")) {
+        const std::string text = textOf(file);
+        for (std::sregex_iterator at(text.begin(), text.end(), function), end; at != end; ++at) {
+            const std::string name = (*at)[1];
+            const std::regex call("\\b" + name + "\\(");
+            const auto count = std::distance(std::sregex_iterator(everything.begin(), everything.end(), call), end);
+            EXPECT_GE(count, 2) << name << " of " << file << " is never called";
+        }
+    }
+}
+
+}  // namespace
+}  // namespace nacre
