@@ -25,6 +25,14 @@ std::string toString(FactoredForm form);  ///< half_diff, cosine, single_lobe, t
 /// \throws std::invalid_argument that lists the known names
 FactoredForm factoredFormFromString(const std::string& name);
 
+/// How the channels of HalfDiff's textures add up; x = cos²φd, c_k = colour columns.
+enum class HalfDiffLayout {
+    Product,  ///< two fetches: Σ c_k T0_k(u,v) + T1.r(U,V)                                    HSE eq. 1 in logarithms
+    Harmonics,  ///< two fetches: c0 (T0.r + x T0.g + x² T0.b + x³ T1.r) + c1 (T0.a + x T1.g) + c2 (T1.b + x T1.a)
+    Compact,    ///< one fetch:   c0 (T0.r + x T0.g) + c1 T0.b + c2 T0.a
+    Grazing     ///< two fetches: Compact + Σ c_k T1_k(U,V)
+};
+
 inline constexpr int kMaxFactoredTextures = 4;
 inline constexpr int kFactoredParams = 16;  ///< vec4s of constants a form may use
 
@@ -33,7 +41,7 @@ struct FactoredBrdf {
     FactoredForm form = FactoredForm::HalfDiff;
     std::string method;                  ///< how it was made: analytic, fit, svd, …
     std::vector<AssetTexture> textures;  ///< in the order of the shader's samplers; size ≤ kMaxFactoredTextures
-    std::array<glm::vec4, kFactoredParams> params{};  ///< meaning per form: factored_brdf.cpp, and the form's .glsl
+    std::array<glm::vec4, kFactoredParams> params{};  ///< meaning per form: factorize/README.md
     int fetches = 0;                                  ///< texture lookups per evaluation
 
     std::size_t bytes() const;

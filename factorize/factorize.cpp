@@ -1,0 +1,196 @@
+#include "factorize/factorize.hpp"
+
+#include <fmt/format.h>
+
+#include "core/error.hpp"
+#include "factorize/methods.hpp"
+
+namespace nacre {
+namespace {
+
+/// One thing to try: a method at given sizes, with what it will cost.
+struct Candidate {
+    std::string method;
+    TextureSizes sizes;
+    HalfDiffLayout layout = HalfDiffLayout::Harmonics;
+};
+
+FactoredBrdf bake(const Reflectance& r, const Candidate& c, const FactorizeOptions& options) {
+    if (c.method == "cosine") return factorizeCosine(r, c.sizes, options);
+    if (c.method == "analytic") return factorizeAnalytic(r, c.sizes, options);
+    if (c.method == "fit") return factorizeFit(r, c.layout, c.sizes, options);
+    if (c.method == "homomorphic") return factorizeHomomorphic(r, c.sizes, options);
+    if (c.method == "svd") return factorizeSeparable(r, c.sizes, options);
+    if (c.method == "single-lobe") return factorizeSingleLobe(r, c.sizes, options);
+    return factorizeTangent(r, c.sizes, options);
+}
+
+TextureSizes square(int first, int second) { return {{first, first}, {second, second}}; }
+
+/// The method's sizes from small to large: what a budget search walks through.
+std::vector<Candidate> ladder(const std::string& method) {
+    std::vector<Candidate> out;
+    const auto add = [&](TextureSizes sizes, HalfDiffLayout layout = HalfDiffLayout::Harmonics) {
+        out.push_back({method, sizes, layout});
+    };
+    if (method == "fit") {
+        add(square(16, 1), HalfDiffLayout::Compact);
+        add(square(24, 1), HalfDiffLayout::Compact);
+        add(square(32, 1), HalfDiffLayout::Compact);
+        add({{40, 24}, {16, 12}});  // 9 KiB in half floats
+        add({{48, 36}, {32, 24}});
+        add({{64, 48}, {40, 32}});
+        add(square(64, 64));
+        add(square(96, 64));
+    } else if (method == "analytic" || method == "cosine") {
+        for (int edge : {16, 32, 64, 128, 256}) add(square(edge, edge));
+    } else if (method == "homomorphic") {
+        add(square(24, 12));
+        add(square(32, 16));
+        add(square(48, 24));
+        add(square(64, 32));
+        add(square(96, 48));
+        add(square(128, 64));
+    } else if (method == "svd") {
+        for (int edge : {16, 24, 32, 48}) add(square(edge, edge));
+    } else {
+        for (int edge : {32, 64, 128, 256, 512}) add(square(edge, edge));
+    }
+    return out;
+}
+
+/// The method's own choice when nobody asks for a size.
+Candidate usual(const std::string& method, const Reflectance& r) {
+    Candidate c{method, square(64, 64)};
+    if (method == "svd") c.sizes = square(32, 32);
+    if (method == "homomorphic") c.sizes = r.microfacet ? square(64, 32) : square(64, 64);
+    if (method == "single-lobe") c.sizes = square(256, 2);
+    if (method == "tangent") c.sizes = square(128, 128);
+    if (method == "analytic" && r.microfacet && r.microfacet->alphaX < 0.03) c.sizes = square(128, 128);
+    return c;
+}
+
+Candidate ofSize(const std::string& method, const FactorizeOptions& options) {
+    const int n = options.size;
+    Candidate c{method, square(n, method == "homomorphic" ? std::max(2, n / 2) : n)};
+    if (method == "fit" && options.terms == 1) c.layout = HalfDiffLayout::Compact;
+    if (method == "fit" && options.terms == 2) c.layout = HalfDiffLayout::Grazing;
+    return c;
+}
+
+/// Methods that fit the input, best first. `analytic` and the special forms are exact but for interpolation; `fit`
+/// takes any isotropic input; `homomorphic` everything.
+std::vector<std::string> suitable(const Reflectance& r) {
+    std::vector<std::string> out;
+    if (r.tangent) out.push_back("tangent");
+    if (r.singleLobe) out.push_back("single-lobe");
+    if (r.isotropic && r.microfacet && r.microfacet->diffuseIsConstant && r.microfacet->visibilityIsIsotropic)
+        out.push_back("analytic");
+    if (r.isotropic)
+        out.push_back("fit");
+    else
+        out.push_back("homomorphic");
+    return out;
+}
+
+std::string budgetText(const FactorizeOptions& o) {
+    std::string text;
+    if (o.maxError) text += fmt::format(" error <= {}", *o.maxError);
+    if (o.maxBytes) text += fmt::format(" bytes <= {}", *o.maxBytes);
+    if (o.maxFetches) text += fmt::format(" fetches <= {}", *o.maxFetches);
+    return text;
+}
+
+int fetchesOf(const Candidate& c, const FactorizeOptions& options, const Reflectance& r) {
+    if (c.method == "fit") return c.layout == HalfDiffLayout::Compact ? 1 : 2;
+    if (c.method == "svd") return 2 * (options.terms == 0 ? 2 : options.terms);
+    if (c.method == "single-lobe" || c.method == "tangent") return 1;
+    if (c.method == "homomorphic") return r.microfacet ? 1 : 3;  // at least
+    return 2;
+}
+
+/// Texels' bytes before anything is baked: an upper bound for grey models.
+std::size_t bytesOf(const Candidate& c, const FactorizeOptions& options) {
+    const std::size_t unit = bytesPerChannel(options.format);
+    const std::size_t first = static_cast<std::size_t>(c.sizes.first.x) * c.sizes.first.y;
+    const std::size_t second = static_cast<std::size_t>(c.sizes.second.x) * c.sizes.second.y;
+    if (c.method == "fit") return unit * 4 * (first + (c.layout == HalfDiffLayout::Harmonics ? second : 0));
+    return unit * first;  // at least: the exact figure is checked after the bake
+}
+
+/// With a bound on the error: from small to large, the first that meets it. Without: the largest within bytes and
+/// fetches.
+FactoredBrdf withinBudget(const Reflectance& r, const std::vector<std::string>& methods,
+                          const FactorizeOptions& options) {
+    std::vector<Candidate> candidates;
+    for (const std::string& method : methods)
+        for (const Candidate& c : ladder(method))
+            if ((!options.maxBytes || bytesOf(c, options) <= *options.maxBytes) &&
+                (!options.maxFetches || fetchesOf(c, options, r) <= *options.maxFetches))
+                candidates.push_back(c);
+    std::stable_sort(candidates.begin(), candidates.end(),
+                     [&](const Candidate& a, const Candidate& b) { return bytesOf(a, options) < bytesOf(b, options); });
+    if (!options.maxError) std::reverse(candidates.begin(), candidates.end());
+
+    double nearest = std::numeric_limits<double>::infinity();
+    std::string nearestText = "nothing that small exists";
+    for (const Candidate& c : candidates) {
+        FactoredBrdf brdf = bake(r, c, options);
+        const bool small = (!options.maxBytes || brdf.bytes() <= *options.maxBytes) &&
+                           (!options.maxFetches || brdf.fetches <= *options.maxFetches);
+        if (small && !options.maxError) return brdf;
+        if (!small) continue;
+        const double error = options.measure(brdf);
+        if (error <= *options.maxError) return brdf;
+        if (error < nearest) {
+            nearest = error;
+            nearestText = fmt::format("nearest: {} with error {:.4g}, {} bytes, {} fetches", c.method, error,
+                                      brdf.bytes(), brdf.fetches);
+        }
+    }
+    throw Error(fmt::format("{}: no representation within{}; {}", r.source, budgetText(options), nearestText));
+}
+
+void checkOptions(const FactorizeOptions& options) {
+    require(options.size == 0 || (options.size >= 2 && options.size <= 4096),
+            fmt::format("factorize: size must be 2 to 4096, found {}", options.size));
+    require(options.terms >= 0 && options.terms <= 3,
+            fmt::format("factorize: terms must be 1 to 3, found {}", options.terms));
+    require(!options.maxError || options.measure, "factorize: a bound on the error needs a measure");
+    if (options.method == "auto") return;
+    std::string known = "auto";
+    for (const FactorizeMethod& m : factorizeMethods()) {
+        if (m.name == options.method) return;
+        known += ", " + m.name;
+    }
+    throw std::invalid_argument(fmt::format("unknown method '{}'; known: {}", options.method, known));
+}
+
+}  // namespace
+
+std::vector<FactorizeMethod> factorizeMethods() {
+    return {
+        {"analytic", "F·D and G/(4 cos cos) as logarithms in adaptive coordinates, refined through the filter",
+         "isotropic microfacet models"},
+        {"cosine", "the same factors linear in the cosines, as HSE section 1.1 prints them",
+         "isotropic microfacet models"},
+        {"fit", "logarithmic tables over half and difference angle with harmonics in the azimuth", "isotropic input"},
+        {"homomorphic", "diffuse + exp(P(wi) + Q(h) + P(wo)) with Fresnel and elevations as arithmetic", "any input"},
+        {"svd", "sum of products of two textures, half/difference or in/out", "any input"},
+        {"single-lobe", "one texture with specular, diffuse and ambient terms", "phong, blinn-phong, cosine-lobe"},
+        {"tangent", "one texture over the two angles to the tangent", "banks"}};
+}
+
+FactoredBrdf factorize(const Reflectance& r, const FactorizeOptions& options) {
+    checkOptions(options);
+    const std::vector<std::string> methods =
+        options.method == "auto" ? suitable(r) : std::vector<std::string>{options.method};
+    if (options.size != 0) return bake(r, ofSize(methods.front(), options), options);
+    const bool budget = options.maxError || options.maxBytes || options.maxFetches;
+    if (budget) return withinBudget(r, methods, options);
+    Candidate c = usual(methods.front(), r);
+    if (options.terms != 0) c.layout = ofSize(c.method, options).layout;
+    return bake(r, c, options);
+}
+
+}  // namespace nacre
