@@ -10,6 +10,7 @@
 #include "core/error.hpp"
 #include "factorize/measured/merl.hpp"
 #include "factorize/measured/rgl.hpp"
+#include "factorize/micro/micro.hpp"
 #include "factorize/models/models.hpp"
 
 namespace nacre {
@@ -60,6 +61,7 @@ static Reflectance openFile(const std::string& source) {
 }
 
 Reflectance openReflectance(const std::string& source) {
+    if (source.rfind(kMicroPrefix, 0) == 0) return openMicro(source);
     std::error_code unreadable;
     const bool isFile = kindBySuffix(source) || looksLikePath(source) || fs::is_regular_file(source, unreadable);
     return isFile ? openFile(source) : makeModel(source);

@@ -67,7 +67,7 @@ struct Reflectance {
 };
 
 /// Opens any source: a model (`torrance-sparrow:alpha=0.1`), a published fit (`sgd:gold-paint`), a file
-/// (.binary MERL, .bsdf RGL, .csv samples), or a micro-geometry (`micro:height.png,…`).
+/// (.binary MERL, .bsdf RGL, .csv samples), or a simulated micro-geometry (`micro:ridges,slope=1`).
 /// \throws std::invalid_argument for an unknown model or parameter (lists the known ones); nacre::Error for a bad file
 Reflectance openReflectance(const std::string& source);
 
