@@ -52,7 +52,7 @@ LitView paperView() {  // directional light, orthographic camera
     view.camera.eye = {1, 2, 2};
     view.camera.orthographic = true;
     view.camera.height = 2.8;
-    view.lights = {Light{true, glm::normalize(Vec3(1, 1, 0.5)), {1, 1, 1}}};
+    view.lights = {Light{true, glm::normalize(Vec3(-0.5, -1, 2)), {1, 1, 1}}};
     return view;
 }
 

@@ -122,7 +122,8 @@ TEST(LitPass, LightsInThePlaneAndBehind) {
         view.lights = {light};
         target.clear();
         renderDirect(loader, target, quad, view, brdf);
-        for (float value : target.read().data()) EXPECT_EQ(value, 0.0f);
+        const Image picture = target.read();
+        for (float value : picture.data()) EXPECT_EQ(value, 0.0f);
     }
     view.lights.clear();
     view.ambient = Rgb(0.25, 0.5, 1);
