@@ -144,7 +144,7 @@ TEST(Addressing, TextureMatricesRejectWhatTheyCannotDo) {
 }
 
 // 8-bit tables reach the shader through scale and bias.
-TEST(GpuFactored, AppliesScaleAndBias) {
+TEST(Addressing, FactoredTablesHaveScaleAndBias) {
     test::context();
     ProgramLoader loader = standInLoader();
     FactoredBrdf factored = cosineBrdf();

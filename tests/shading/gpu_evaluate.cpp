@@ -44,7 +44,7 @@ const Context& context(GlApi api) {
 std::vector<glm::vec4> gpuEvaluate(const GpuFunction& function, std::span<const DirectionPair> pairs) {
     const int height = static_cast<int>((pairs.size() + kWidth - 1) / kWidth);
     const Texture wi(packDirections(pairs, height, true)), wo(packDirections(pairs, height, false));
-    const ProgramLoader loader(function.dialect, {shaderFolder(), NACRE_SOURCE_DIR "/tests/shading/shaders"});
+    const ProgramLoader loader(function.dialect);
     const Program program = loader.compile("fullscreen.vert.glsl", {"test", function.code + kMain}, function.defines);
     const RenderTarget target({.width = kWidth, .height = height, .depth = false});
     target.clear();
