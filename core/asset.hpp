@@ -2,8 +2,10 @@
 // `nacre` with JSON in the first part.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <nlohmann/json.hpp>
+#include <span>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -66,5 +68,8 @@ void writeAsset(const Asset& asset, const std::filesystem::path& path);
 /// Checks that it is an EXR file with a `nacre` attribute, the version, part names, sizes, formats and finite values.
 /// \throws nacre::Error naming file, part, expected and found
 Asset readAsset(const std::filesystem::path& path);
+
+/// readAsset of a file's bytes. \param name  what messages call the file
+Asset parseAsset(std::span<const std::uint8_t> bytes, const std::string& name);
 
 }  // namespace nacre

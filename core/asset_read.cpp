@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 
 #include <cstring>
+#include <memory>
 #include <set>
 
 #include "core/asset.hpp"
@@ -23,7 +24,7 @@ namespace {
 
 class MemoryIStream : public Imf::IStream {
 public:
-    explicit MemoryIStream(const std::vector<std::uint8_t>& bytes) : Imf::IStream("file"), bytes_(bytes) {}
+    explicit MemoryIStream(std::span<const std::uint8_t> bytes) : Imf::IStream("file"), bytes_(bytes) {}
     bool read(char c[], int n) override {
         const std::uint64_t left = position_ < bytes_.size() ? bytes_.size() - position_ : 0;
         if (n < 0 || static_cast<std::uint64_t>(n) > left)
@@ -36,7 +37,7 @@ public:
     void seekg(uint64_t pos) override { position_ = pos; }
 
 private:
-    const std::vector<std::uint8_t>& bytes_;
+    std::span<const std::uint8_t> bytes_;
     std::uint64_t position_ = 0;
 };
 
@@ -130,7 +131,11 @@ static TableEntry entryOf(const std::string& path, const nlohmann::json& json) {
     return entry;
 }
 
-static std::vector<TableEntry> tableOf(const std::string& path, const nlohmann::json& json, int parts) {
+/// Memory is bounded by the file's size: zip packs at most 1032 bytes into one, and a value takes two or more.
+static std::size_t maxValues(std::size_t fileBytes) { return std::min(exr::kMaxValues, 600 * fileBytes); }
+
+static std::vector<TableEntry> tableOf(const std::string& path, std::size_t fileBytes, const nlohmann::json& json,
+                                       int parts) {
     const auto table = json.find("textures");
     if (table == json.end() || !table->is_array() || table->size() != static_cast<std::size_t>(parts))
         fail(path, "", fmt::format("'textures' in attribute 'nacre' with one entry for each of {} parts", parts),
@@ -145,8 +150,9 @@ static std::vector<TableEntry> tableOf(const std::string& path, const nlohmann::
             fail(path, entry.texture.name, "unique texture names", "this one twice");
         values += static_cast<std::size_t>(entry.width) * static_cast<std::size_t>(entry.height) *
                   static_cast<std::size_t>(entry.channels);
-        if (values > exr::kMaxValues)
-            fail(path, entry.texture.name, fmt::format("at most {} values in the file", exr::kMaxValues), "more");
+        if (values > maxValues(fileBytes))
+            fail(path, entry.texture.name,
+                 fmt::format("at most {} values in a file of {} bytes", maxValues(fileBytes), fileBytes), "more");
     }
     return entries;
 }
@@ -217,7 +223,7 @@ static AssetTexture readPart(const std::string& path, Imf::MultiPartInputFile& f
     return texture;
 }
 
-static Asset readOpened(const std::string& path, Imf::MultiPartInputFile& file) {
+static Asset readOpened(const std::string& path, std::size_t fileBytes, Imf::MultiPartInputFile& file) {
     const int parts = file.parts();
     const auto* attribute = file.header(0).findTypedAttribute<Imf::StringAttribute>(exr::kAttribute);
     if (!attribute) fail(path, "", "a string attribute 'nacre'", "an EXR that is no nacre asset");
@@ -230,17 +236,15 @@ static Asset readOpened(const std::string& path, Imf::MultiPartInputFile& file) 
     if (asset.kind.empty()) fail(path, "", "a kind", "an empty string");
     if (static_cast<std::size_t>(parts) > exr::kMaxParts)
         fail(path, "", fmt::format("at most {} parts", exr::kMaxParts), fmt::format("{}", parts));
-    std::vector<TableEntry> entries = tableOf(path, asset.meta, parts);
+    std::vector<TableEntry> entries = tableOf(path, fileBytes, asset.meta, parts);
     for (int i = 0; i < parts; ++i) checkHeader(path, file.header(i), entries[static_cast<std::size_t>(i)]);
     for (int i = 0; i < parts; ++i)
         asset.textures.push_back(readPart(path, file, i, std::move(entries[static_cast<std::size_t>(i)])));
     return asset;
 }
 
-Asset readAsset(const std::filesystem::path& path) {
-    const std::vector<std::uint8_t> bytes = readFile(path, exr::kMaxFileBytes);
+Asset parseAsset(std::span<const std::uint8_t> bytes, const std::string& name) {
     MemoryIStream stream(bytes);
-    const std::string name = path.string();
     std::unique_ptr<Imf::MultiPartInputFile> file;
     try {
         // No thread pool, and no reconstruction of a broken chunk table: a truncated file is an error.
@@ -249,10 +253,14 @@ Asset readAsset(const std::filesystem::path& path) {
         fail(name, "", "an OpenEXR file", error.what());
     }
     try {
-        return readOpened(name, *file);
+        return readOpened(name, bytes.size(), *file);
     } catch (const IEX_NAMESPACE::BaseExc& error) {
         fail(name, "", "a valid OpenEXR file", error.what());
     }
+}
+
+Asset readAsset(const std::filesystem::path& path) {
+    return parseAsset(readFile(path, exr::kMaxFileBytes), path.string());
 }
 
 }  // namespace nacre

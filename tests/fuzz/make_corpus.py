@@ -1,0 +1,64 @@
+#!/usr/bin/env python3
+"""Writes the corpus files that are made by formula: small measured files of every layout.
+Run from the repository root: python3 tests/fuzz/make_corpus.py
+(corpus/asset comes from the nacre command: factorize MODEL --size 4 in each storage format.)"""
+import math
+import os
+import struct
+
+FLOAT, UINT8 = 10, 1
+corpus = os.path.join(os.path.dirname(__file__), "corpus")
+
+
+def write(name, data):
+    path = os.path.join(corpus, name)
+    os.makedirs(os.path.dirname(path), exist_ok=True)
+    with open(path, "wb") as file:
+        file.write(data)
+
+
+def tensor_file(fields):
+    """fields: (name, shape, numbers or bytes)"""
+    size = 18 + sum(2 + len(n) + 2 + 1 + 8 + 8 * len(s) for n, s, _ in fields)
+    head = b"tensor_file\0\x01\0" + struct.pack("<I", len(fields))
+    body = b""
+    for name, shape, numbers in fields:
+        text = isinstance(numbers, bytes)
+        data = numbers if text else struct.pack(f"<{len(numbers)}f", *numbers)
+        head += struct.pack("<H", len(name)) + name.encode() + struct.pack("<HB", len(shape), UINT8 if text else FLOAT)
+        head += struct.pack("<Q", size + len(body)) + struct.pack(f"<{len(shape)}Q", *shape)
+        body += data
+    return head + body
+
+
+def rgl(phi):
+    theta, n = [0.1, 1.2], 3
+    grid = [1 + 0.1 * math.sin(i) for i in range(n * n)]
+    slices = len(phi) * len(theta)
+    return tensor_file([
+        ("phi_i", [len(phi)], phi), ("theta_i", [len(theta)], theta),
+        ("sigma", [n, n], grid), ("ndf", [n, n], grid),
+        ("vndf", [len(phi), len(theta), n, n], grid * slices),
+        ("rgb", [len(phi), len(theta), 3, n, n], grid * 3 * slices),
+        ("description", [4], b"made"),
+    ])
+
+
+write("rgl/isotropic.bsdf", rgl([0.0]))
+write("rgl/anisotropic.bsdf", rgl([-math.pi, -math.pi / 2, 0.0, math.pi / 2, math.pi]))
+write("rgl/header_only.bsdf", rgl([0.0])[:20])
+write("merl/header_only.binary", struct.pack("<3i", 90, 90, 180))
+write("merl/short.binary", struct.pack("<3i8d", 90, 90, 180, *range(8)))
+write("merl/wrong_dimensions.binary", struct.pack("<3i8d", 2, 2, 2, *range(8)))
+write("merl/negative_dimensions.binary", struct.pack("<3i8d", -90, -90, 180, *range(8)))
+write("merl/product_matches.binary", struct.pack("<3i8d", 180, 90, 90, *range(8)))
+models = [
+    "lambert", "lambert:kd=0.1/0.2/0.3", "torrance-sparrow:d=beckmann,alpha=0.1,f=conductor,eta=1.5,k=3",
+    "ward:alphax=0.1,alphay=0.3", "ggx:alphax=0.1,alphay=0.4", "blinn-phong:n=1e6", "phong:n=0", "sgd:gold-paint",
+    "ashikhmin-shirley:nu=50,nv=500", "cosine-lobe", "schlick", "banks",
+]
+for i, model in enumerate(models):
+    write(f"model/{i:02}.txt", model.encode())
+write("directions/header.csv", b"wix,wiy,wiz,wox,woy,woz\n0,0,1,0,0,1\n0.6,0,0.8,0,0.6,0.8\r\n# end\n")
+write("directions/bare.csv", b"0,0,1,0,0,1")
+write("directions/broken.csv", b"0,0,1,0,0\n1,nan,inf,1e999,-0,.\n,,,,,\n")

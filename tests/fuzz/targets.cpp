@@ -1,0 +1,166 @@
+#include "tests/fuzz/targets.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <filesystem>
+#include <random>
+#include <stdexcept>
+#include <string_view>
+
+#include "cli/direction_lines.hpp"
+#include "core/asset.hpp"
+#include "core/error.hpp"
+#include "core/file.hpp"
+#include "factorize/factored_brdf.hpp"
+#include "factorize/measured/merl.hpp"
+#include "factorize/measured/rgl.hpp"
+#include "factorize/models/models.hpp"
+
+namespace nacre::tests {
+
+static const Vec3 kIn = sphericalDirection(0.6, 0.3), kOut = sphericalDirection(1.2, 2.0);
+
+static void requireDefined(const Rgb& value, const char* what) {
+    if (!isFinite(value)) throw std::logic_error(std::string(what) + ": f is not finite");
+}
+
+static void readAssetBytes(std::span<const std::uint8_t> bytes) {
+    const FactoredBrdf brdf = factoredFromAsset(parseAsset(bytes, "input"), "input");
+    evaluate(brdf, kIn, kOut);
+}
+
+static void readMerlBytes(std::span<const std::uint8_t> bytes) {
+    requireDefined(evaluate(parseMerl(bytes, "input"), kIn, kOut), "merl");
+}
+
+static void readRglBytes(std::span<const std::uint8_t> bytes) {
+    requireDefined(evaluateRaw(parseRgl(bytes, "input"), kIn, kOut), "rgl");
+}
+
+static void readModelText(std::span<const std::uint8_t> bytes) {
+    const Reflectance model = makeModel(std::string(bytes.begin(), bytes.end()));
+    requireDefined(model.f(kIn, kOut), model.source.c_str());
+}
+
+static void readDirections(std::span<const std::uint8_t> bytes) {
+    std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+    cli::DirectionReader reader;
+    std::vector<DirectionPair> pairs;
+    while (!text.empty()) {
+        const std::size_t end = std::min(text.find('\n'), text.size());
+        reader.take(text.substr(0, end), pairs);
+        text.remove_prefix(std::min(end + 1, text.size()));
+    }
+}
+
+const std::vector<FuzzTarget>& fuzzTargets() {
+    static const std::vector<FuzzTarget> targets = {{"asset", readAssetBytes},
+                                                    {"merl", readMerlBytes},
+                                                    {"rgl", readRglBytes},
+                                                    {"model", readModelText},
+                                                    {"directions", readDirections}};
+    return targets;
+}
+
+void feed(const FuzzTarget& target, std::span<const std::uint8_t> bytes) {
+    try {
+        target.read(bytes);
+    } catch (const Error&) {
+    } catch (const std::invalid_argument&) {
+    }
+}
+
+namespace {
+
+/// The kinds of change. Positions and values come from the generator.
+class Mutator {
+public:
+    Mutator(std::vector<std::uint8_t> bytes, std::uint64_t seed) : bytes_(std::move(bytes)), random_(seed) {}
+
+    void change(const std::vector<std::uint8_t>& other) {
+        switch (below(bytes_.empty() ? 1 : 8)) {
+            case 0:
+                insert({static_cast<std::uint8_t>(below(256))});
+                break;
+            case 1:
+                bytes_[below(bytes_.size())] ^= static_cast<std::uint8_t>(1u << below(8));
+                break;
+            case 2:
+                bytes_[below(bytes_.size())] = static_cast<std::uint8_t>(below(256));
+                break;
+            case 3:
+                number();
+                break;
+            case 4:
+                remove();
+                break;
+            case 5:
+                insert(block(bytes_));
+                break;
+            case 6:
+                insert(block(other));
+                break;
+            case 7:
+                bytes_[below(bytes_.size())] = kText[below(kText.size())];
+                break;
+        }
+    }
+    std::vector<std::uint8_t> take() { return std::move(bytes_); }
+    std::size_t below(std::size_t count) { return count ? random_() % count : 0; }
+
+private:
+    static constexpr std::string_view kText = "0123456789.,:=-+/e#\n\r nanif\"{}[]";
+    static constexpr std::array<std::uint32_t, 8> kNumbers = {0,          1,          0xffffffff, 0x7fffffff,
+                                                              0x80000000, 0x10000000, 0x7fc00000, 0x4000};
+    static constexpr std::size_t kMaxBlock = 64;
+
+    std::vector<std::uint8_t> block(const std::vector<std::uint8_t>& from) {
+        if (from.empty()) return {};
+        const std::size_t begin = below(from.size()), size = std::min(1 + below(kMaxBlock), from.size() - begin);
+        const auto first = from.begin() + static_cast<std::ptrdiff_t>(begin);
+        return {first, first + static_cast<std::ptrdiff_t>(size)};
+    }
+    void insert(const std::vector<std::uint8_t>& what) {
+        const auto at = bytes_.begin() + static_cast<std::ptrdiff_t>(below(bytes_.size() + 1));
+        bytes_.insert(at, what.begin(), what.end());
+    }
+    void remove() {
+        const std::size_t begin = below(bytes_.size());
+        // Now and then everything behind: a truncated file.
+        const std::size_t size =
+            below(16) ? std::min(1 + below(kMaxBlock), bytes_.size() - begin) : bytes_.size() - begin;
+        const auto first = bytes_.begin() + static_cast<std::ptrdiff_t>(begin);
+        bytes_.erase(first, first + static_cast<std::ptrdiff_t>(size));
+    }
+    void number() {
+        const std::uint32_t value = kNumbers[below(kNumbers.size())];
+        const std::size_t at = below(bytes_.size());
+        for (std::size_t i = 0; i < 4 && at + i < bytes_.size(); ++i)
+            bytes_[at + i] = static_cast<std::uint8_t>(value >> (8 * i));
+    }
+
+    std::vector<std::uint8_t> bytes_;
+    std::mt19937_64 random_;
+};
+
+}  // namespace
+
+std::vector<std::uint8_t> mutated(const std::vector<std::uint8_t>& bytes, const std::vector<std::uint8_t>& other,
+                                  std::uint64_t seed) {
+    Mutator mutator(bytes, seed);
+    for (std::size_t changes = 1 + mutator.below(4); changes > 0; --changes) mutator.change(other);
+    return mutator.take();
+}
+
+std::vector<std::vector<std::uint8_t>> corpusOf(const std::string& folder, const std::string& name) {
+    std::vector<std::filesystem::path> paths;
+    for (const auto& entry : std::filesystem::directory_iterator(std::filesystem::path(folder) / name))
+        paths.push_back(entry.path());
+    std::sort(paths.begin(), paths.end());
+    std::vector<std::vector<std::uint8_t>> files;
+    for (const auto& path : paths) files.push_back(readFile(path, 1 << 20));
+    return files;
+}
+
+}  // namespace nacre::tests
