@@ -122,6 +122,16 @@ static void describe(json& meta, const Context& context, const Settings& s, cons
     if (reflectance.data.entries > 0) meta["data"] = dataJson(reflectance.data);
 }
 
+/// An explicit size leaves the search out; the budget holds all the same.
+static void requireBudget(const Settings& s, const FactoredBrdf& baked) {
+    if (s.options.maxBytes && baked.bytes() > *s.options.maxBytes)
+        throw Error(
+            fmt::format("{}: expected at most {} bytes, found {}", s.output, *s.options.maxBytes, baked.bytes()));
+    if (s.options.maxFetches && baked.fetches > *s.options.maxFetches)
+        throw Error(
+            fmt::format("{}: expected at most {} fetches, found {}", s.output, *s.options.maxFetches, baked.fetches));
+}
+
 static void runFactorize(const Context& context, Settings& s) {
     const fs::path provisional = s.output + fmt::format(".{}.provisional", ::getpid());
     const ProvisionalFile removeLater{provisional};
@@ -146,6 +156,7 @@ static void runFactorize(const Context& context, Settings& s) {
     const Stopwatch measuring;
     const FactoredBrdf readBack = factoredFromAsset(written, provisional.string());
     const BrdfError error = measureBrdf(functionOf(readBack), truth, metric);
+    requireBudget(s, baked);
     if (s.options.maxError && error.l2Rel > *s.options.maxError)
         throw Error(fmt::format("{}: expected l2_rel <= {}, found {:.4g}", s.output, *s.options.maxError, error.l2Rel));
     describe(asset.meta, context, s, reflectance);
@@ -184,7 +195,7 @@ Verb factorizeVerb(Context& context) {
         {"-o,--output", "OUT.exr", "The asset to write", into(s->output), true},
         {"--method", "NAME", "Factorization (default auto)", into(o.method), false, methodNames()},
         {"--size", "N", "Edge of the largest texture, 2 to 4096", integerInto(size, 2, 4096)},
-        {"--terms", "K", "Terms of the svd, harmonics of the fit, 1 to 4", integerInto(terms, 1, 4)},
+        {"--terms", "K", "Terms of the svd, harmonics of the fit, 1 to 3", integerInto(terms, 1, 3)},
         {"--parametrization", "NAME", "Of the svd", into(o.parametrization), false, {"half_diff", "in_out"}},
         {"--format", "NAME", "Storage (default half)", into(s->format), false, {"half", "float", "unorm8"}},
         {"--max-error", "E", "Budget: largest l2_rel", positiveInto([&o](double v) { o.maxError = v; })},

@@ -28,7 +28,7 @@ static std::string infoText(const std::string& path, const Asset& asset) {
         fmt::format("{}: {}, {} in {} textures\n", path, asset.kind, humanBytes(asset.bytes()), asset.textures.size());
     for (const AssetTexture& texture : asset.textures) out += textureText(texture);
     for (const auto& [key, value] : asset.meta.items()) {
-        if (key == "textures" || key == "kind" || key == "bytes") continue;
+        if (key == "textures" || key == "kind" || key == "bytes" || key == "params") continue;
         if (!value.is_object()) {
             out += fmt::format("{:<22} {}\n", key, valueText(value));
             continue;

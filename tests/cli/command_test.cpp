@@ -119,6 +119,8 @@ TEST(CommandFactorize, SameBytesForAnyThreadCount) {
 
 TEST(CommandFactorize, BudgetThatCannotBeMetFails) {
     const Scratch scratch;
+    expectFailure(nacre(bake(scratch / "a.exr", {"--size", "64", "--max-bytes", "100"})), 1, {"at most 100 bytes"});
+    expectFailure(nacre(bake(scratch / "a.exr", {"--size", "8", "--max-error", "1e-9"})), 1, {"l2_rel <= 1e-09"});
     const Outcome outcome = nacre(bake(scratch / "a.exr", {"--max-bytes", "1", "--max-error", "1e-9"}));
     EXPECT_EQ(outcome.code, 1) << outcome.err;
     EXPECT_EQ(scratch.fileCount(), 0u);
