@@ -10,6 +10,7 @@
 #include "core/error.hpp"
 #include "factorize/measured/merl.hpp"
 #include "factorize/measured/rgl.hpp"
+#include "factorize/measured/samples.hpp"
 #include "factorize/micro/micro.hpp"
 #include "factorize/models/models.hpp"
 
@@ -20,7 +21,7 @@ namespace fs = std::filesystem;
 namespace {
 struct FileKind {
     const char* suffix;
-    const char* firstBytes;  // how a file without the suffix is known; empty: not at all
+    const char* firstBytes;  // how a file without the suffix is known; null: not at all
     Reflectance (*open)(const fs::path&);
 };
 }  // namespace
@@ -28,6 +29,7 @@ struct FileKind {
 static constexpr std::array kFileKinds = {
     FileKind{".binary", "\x5a\0\0\0\x5a\0\0\0\xb4\0\0\0", openMerl},  // int32 90, 90, 180
     FileKind{".bsdf", "tensor_file\0", openRgl},
+    FileKind{".csv", nullptr, openSamples},
 };
 static constexpr std::size_t kFirstBytes = 12;
 
@@ -55,9 +57,10 @@ static Reflectance openFile(const std::string& source) {
     if (!fs::is_regular_file(source)) throw Error(fmt::format("{}: expected a file, found none", source));
     if (const FileKind* kind = kindBySuffix(source)) return kind->open(source);
     if (const FileKind* kind = kindByContent(source)) return kind->open(source);
-    throw Error(fmt::format(
-        "{}: expected a reflectance file (MERL .binary, RGL .bsdf), found neither that suffix nor its content",
-        source));
+    throw Error(
+        fmt::format("{}: expected a reflectance file (MERL .binary, RGL .bsdf, samples .csv), found neither that "
+                    "suffix nor its content",
+                    source));
 }
 
 Reflectance openReflectance(const std::string& source) {

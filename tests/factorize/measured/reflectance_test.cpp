@@ -23,7 +23,7 @@ TEST(OpenReflectance, ModelsAreKnownByName) {
 }
 
 TEST(OpenReflectance, MissingFilesAreErrorsAndNotUnknownModels) {
-    for (const char* source : {"no/such/file", "absent.binary", "absent.bsdf", "/nowhere/x.bsdf", "/"})
+    for (const char* source : {"no/such/file", "absent.binary", "absent.bsdf", "absent.csv", "/nowhere/x.bsdf", "/"})
         EXPECT_THAT(complaint<Error>(source), HasSubstr(std::string(source) + ": expected a file, found none"));
 }
 
@@ -31,6 +31,7 @@ TEST(OpenReflectance, FilesAreKnownBySuffixOrContent) {
     const TemporaryFolder folder;
     EXPECT_THAT(complaint<Error>(folder.write("a.binary", "short")), HasSubstr("expected a MERL table"));
     EXPECT_THAT(complaint<Error>(folder.write("a.bsdf", "short")), HasSubstr("a tensor file's signature"));
+    EXPECT_THAT(complaint<Error>(folder.write("a.csv", "x,y\n")), HasSubstr("line 1: expected a header"));
     const std::string merlStart("\x5a\0\0\0\x5a\0\0\0\xb4\0\0\0", 12), tensorStart("tensor_file\0\x1\0", 14);
     EXPECT_THAT(complaint<Error>(folder.write("unnamed1", merlStart)), HasSubstr("for MERL dimensions"));
     EXPECT_THAT(complaint<Error>(folder.write("unnamed2", tensorStart)), HasSubstr("number of fields"));
