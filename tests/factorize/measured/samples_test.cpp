@@ -56,6 +56,8 @@ TEST(Samples, SmoothFunctionIsRecoveredBetweenItsSamples) {
         const Rgb there = r.f(pair.wi, pair.wo), back = r.f(pair.wo, pair.wi);
         ASSERT_TRUE(isFinite(there) && std::min({there.r, there.g, there.b}) >= 0);
         EXPECT_LT(glm::length(there - back), 1e-6 * glm::length(there));
+        const Rgb mirrored = r.f(Vec3(pair.wi.x, -pair.wi.y, pair.wi.z), Vec3(pair.wo.x, -pair.wo.y, pair.wo.z));
+        EXPECT_LT(glm::length(there - mirrored), 1e-6 * glm::length(there));
         EXPECT_LT(there.r, 3);
     }
     EXPECT_EQ(r.f({1, 0, 0}, {0, 0, 1}), Rgb(0));
