@@ -18,7 +18,7 @@ struct TimingOptions {
 
 /// Median time of each frame [s]. Each is drawn once before (the first draw compiles shaders); then the measurements
 /// take turns, so that a slow moment of the machine meets all frames alike.
-/// \param frames  each draws one frame; state they need they set themselves
+/// \param frames  each draws one frame and sets the state it needs; glFlush follows each
 /// \throws std::invalid_argument when repeats < 1 or a frame is empty; whatever a frame throws
 std::vector<double> medianFrameSeconds(std::span<const std::function<void()>> frames,
                                        const TimingOptions& options = {});
