@@ -20,6 +20,7 @@ struct FactoredCase {
     std::function<FactoredBrdf()> make;
     bool poleIsUnstable = false;  ///< azimuths about h are rounding at h = n, and arbitrary tables show it
     double relative = 2e-3;       ///< the issue's bar, GLSL against C++ for half assets
+    double ofMedian = 1e-4;       ///< where terms of either sign cancel, their size counts, not the result's
 };
 
 FactoredBrdf bake(const std::string& model, const std::string& method, int terms = 0,
@@ -32,7 +33,7 @@ FactoredBrdf bake(const std::string& model, const std::string& method, int terms
     return factorize(makeModel(model), options);
 }
 
-/// Sums of a few waves of about unit size, no channel like another.
+/// Sums of a few waves of about that size, no channel like another.
 AssetTexture waves(int width, int height, int channels, int seed, double size) {
     Image image(width, height, channels);
     for (int y = 0; y < height; ++y)
@@ -48,7 +49,7 @@ AssetTexture waves(int width, int height, int channels, int seed, double size) {
 FactoredBrdf arbitrary(FactoredForm form, int textures, const std::vector<glm::vec4>& first) {
     FactoredBrdf brdf;
     brdf.form = form;
-    for (int i = 0; i < textures; ++i) brdf.textures.push_back(waves(24, 17 + i, 4, i + 1, 1.0));
+    for (int i = 0; i < textures; ++i) brdf.textures.push_back(waves(24, 17 + i, 4, i + 1, 1.5));
     for (std::size_t i = 0; i < brdf.params.size(); ++i)
         brdf.params[i] =
             i < first.size() ? first[i] : glm::vec4(0.3f, 0.9f, 0.6f, 0.1f) / static_cast<float>(1 + i % 5);
@@ -60,10 +61,11 @@ FactoredBrdf arbitraryHalfDiff(HalfDiffLayout layout) {
                      {{0.2f, static_cast<float>(layout), 0, 0}});
 }
 
-FactoredBrdf arbitraryHomomorphic(bool quadrant, bool directions, bool elevations) {
-    return arbitrary(
-        FactoredForm::Homomorphic, 1 + directions + elevations,
-        {{1 / 0.1f, 1 / 0.4f, quadrant ? 1 : 0, directions ? 1 : 0}, {0.5f, 0.25f, elevations ? 1 : 0, 1.5f}});
+FactoredBrdf arbitraryHomomorphic(bool quadrant, bool directions, bool elevations, int shadowing) {
+    return arbitrary(FactoredForm::Homomorphic, 1 + directions + elevations,
+                     {{1 / 0.1f, 1 / 0.4f, quadrant ? 1 : 0, directions ? 1 : 0},
+                      {0.5f, 0.25f, elevations ? 1 : 0, 1.5f},
+                      {0.1f, 0.2f, 0.3f, static_cast<float>(shadowing)}});
 }
 
 FactoredBrdf arbitrarySeparable(int terms, bool inOut, bool logarithms) {
@@ -96,17 +98,20 @@ void expectZeroBelowTheHorizon(const FactoredBrdf& brdf) {
     for (const glm::vec4& value : onGpu(brdf, lit, Glsl::V330)) EXPECT_TRUE(isFinite(Vec3(glm::vec3(value))));
 }
 
-/// Far below the peak, where exponentials of sums cancel, a share of the peak counts.
-constexpr double kOfPeak = 1e-6;
+double medianOf(const FactoredBrdf& brdf, const std::vector<DirectionPair>& pairs) {
+    std::vector<double> values;
+    for (const DirectionPair& pair : pairs) values.push_back(maxComponent(glm::abs(evaluate(brdf, pair.wi, pair.wo))));
+    std::nth_element(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2), values.end());
+    return values[values.size() / 2];
+}
 
 TEST_P(GpuFactored, MatchesCpp) {
     const FactoredBrdf brdf = GetParam().make();
     if (!std::filesystem::exists(shaderFolder() / "nacre" / ("factored_" + toString(brdf.form) + ".glsl")))
         GTEST_SKIP() << "no shader for form " << toString(brdf.form) << " yet";
     const std::vector<DirectionPair> pairs = test::testPairs(4000);
-    double peak = 0;
-    for (const DirectionPair& pair : pairs) peak = std::max(peak, maxComponent(evaluate(brdf, pair.wi, pair.wo)));
-    EXPECT_GT(peak, 0);
+    const double median = medianOf(brdf, pairs);
+    EXPECT_GT(median, 0);
     for (const auto& [api, dialect] : {std::pair{GlApi::Core45, Glsl::V330}, {GlApi::Es3, Glsl::Es300}}) {
         test::context(api);
         const auto values = onGpu(brdf, pairs, dialect);
@@ -116,7 +121,7 @@ TEST_P(GpuFactored, MatchesCpp) {
             const Rgb f = evaluate(brdf, pairs[i].wi, pairs[i].wo);
             for (int c = 0; c < 3; ++c) {
                 ASSERT_TRUE(std::isfinite(values[i][c])) << i;
-                ASSERT_NEAR(values[i][c], f[c], GetParam().relative * std::abs(f[c]) + kOfPeak * peak)
+                ASSERT_NEAR(values[i][c], f[c], GetParam().relative * std::abs(f[c]) + GetParam().ofMedian * median)
                     << i << ": wi.z " << pairs[i].wi.z << " wo.z " << pairs[i].wo.z << " channel " << c << " as "
                     << toString(dialect);
             }
@@ -136,7 +141,7 @@ std::vector<FactoredCase> cases() {
         out.push_back({std::string("half_diff_") + name, [layout = layout] { return arbitraryHalfDiff(layout); }});
     for (int i = 0; i < 8; ++i)
         out.push_back({"homomorphic_" + std::to_string(i),
-                       [i] { return arbitraryHomomorphic((i & 1) != 0, (i & 2) != 0, (i & 4) != 0); }});
+                       [i] { return arbitraryHomomorphic((i & 1) != 0, (i & 2) != 0, (i & 4) != 0, i % 3); }});
     for (int i = 0; i < 8; ++i)
         out.push_back({"separable_" + std::to_string(i),
                        [i] { return arbitrarySeparable(1 + (i & 1), (i & 2) != 0, (i & 4) != 0); }, (i & 2) == 0});
@@ -151,10 +156,10 @@ std::vector<FactoredCase> cases() {
     baked("cosine_lobe", "cosine-lobe:cx=-0.9,cy=-0.7,cz=0.8,n=20", "single-lobe");
     baked("banks", "banks:n=30,kd=0.1/0.2/0.3", "tangent");
     out.push_back({"cosine_float", [] { return bake("torrance-sparrow:alpha=0.3", "cosine", 0, TexelFormat::Float); }});
-    // 8-bit tables are filtered with 256 weights by some drivers: half a code in each fetch
+    // 8-bit tables are filtered with 256 weights by some drivers: half a code of the table's whole range
     out.push_back({"cosine_unorm8",
                    [] { return bake("torrance-sparrow:alpha=0.3,kd=0.2", "cosine", 0, TexelFormat::Unorm8); }, false,
-                   2e-2});
+                   2e-2, 0.1});
     return out;
 }
 

@@ -125,6 +125,9 @@ TEST(DeclaredUniforms, FindsNamesTypesArrays) {
 }
 
 TEST_F(ShaderSourceTest, EnvironmentChoosesTheFolder) {
+    const char* before = std::getenv("NACRE_SHADERS");
+    const std::string kept = before ? before : "";
+    unsetenv("NACRE_SHADERS");
     const std::filesystem::path usual = shaderFolder();
     EXPECT_TRUE(std::filesystem::exists(usual / "nacre"));
     setenv("NACRE_SHADERS", folder_.c_str(), 1);
@@ -132,6 +135,7 @@ TEST_F(ShaderSourceTest, EnvironmentChoosesTheFolder) {
     setenv("NACRE_SHADERS", "/no/such/folder", 1);
     EXPECT_THAT(messageOf([] { shaderFolder(); }), HasSubstr("/no/such/folder: expected a folder of shaders"));
     unsetenv("NACRE_SHADERS");
+    if (before) setenv("NACRE_SHADERS", kept.c_str(), 1);
 }
 
 TEST_F(ShaderSourceTest, LoaderKeepsProgramsByFilesAndDefines) {

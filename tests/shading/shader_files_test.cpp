@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <regex>
 #include <set>
+#include <span>
 
 #include "core/file.hpp"
 #include "factorize/models/models.hpp"
@@ -91,7 +92,7 @@ std::vector<ProgramCase> programs() {
     std::vector<ProgramCase> out;
     const std::vector<ShaderDefines> brdfs = choicesFor("nacre/bind/brdf.glsl");
     out.push_back({"lit.vert.glsl", "lit.frag.glsl", brdfs});
-    out.push_back({"lit_vertex.vert.glsl", "lit_vertex.frag.glsl", brdfs});
+    out.push_back({"lit_vertex.vert.glsl", "lit_vertex.frag.glsl", {brdfs.front(), brdfs.back()}});
     std::vector<ShaderDefines> matrix;
     for (ShaderDefines defines : factoredChoices())
         if (defines[0].second == "NACRE_FORM_COSINE" || defines[0].second == "NACRE_FORM_TANGENT") {
@@ -119,7 +120,10 @@ TEST(Contract, HoldsEveryActiveUniformOfEveryProgram) {
         const ProgramLoader loader(dialect);
         for (const ProgramCase& program : programs()) {
             fragments.insert(program.fragment);
-            for (const ShaderDefines& defines : program.choices) {
+            // every BRDF as 330; the programs' own text in each dialect, with one BRDF
+            const std::size_t choices =
+                dialect == Glsl::V330 ? program.choices.size() : std::min<std::size_t>(1, program.choices.size());
+            for (const ShaderDefines& defines : std::span(program.choices).first(choices)) {
                 const Program linked =
                     loader.compile(program.vertex, readShader({shaderFolder()}, program.fragment), defines);
                 for (const ActiveUniform& uniform : linked.activeUniforms()) {
