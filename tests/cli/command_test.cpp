@@ -199,6 +199,29 @@ TEST(CommandInfo, WhatIsNoAsset) {
     expectFailure(nacre({"eval", scratch.folder().string()}), 1, {"folder"});
 }
 
+TEST(CommandInfo, ExrThatIsNoNacreAsset) {  // the same file with the attribute under another name
+    const Scratch scratch;
+    ASSERT_EQ(nacre(bake(scratch / "a.exr")).code, 0);
+    std::string bytes = contents(scratch / "a.exr");
+    const std::size_t at = bytes.find(std::string("nacre\0string", 12));
+    ASSERT_NE(at, std::string::npos);
+    bytes[at] = 'N';
+    std::ofstream(scratch / "b.exr", std::ios::binary) << bytes;
+    expectFailure(nacre({"info", (scratch / "b.exr").string()}), 1, {"b.exr", "an EXR that is no nacre asset"});
+}
+
+TEST(CommandInfo, OversizedFiles) {  // sparse: they take no room on disk, and must take none in memory
+    const Scratch scratch;
+    for (const char* name : {"huge.exr", "huge.binary", "huge.bsdf", "huge.csv"}) {
+        std::ofstream(scratch / name) << "x";
+        std::filesystem::resize_file(scratch / name, std::uintmax_t{1} << 36);
+        const std::string path = (scratch / name).string();
+        const bool isAsset = path.ends_with(".exr");
+        expectFailure(isAsset ? nacre({"info", path}) : nacre({"factorize", path, "-o", (scratch / "a.exr").string()}),
+                      1, {name, "expected", "found"});
+    }
+}
+
 class CommandEval : public ::testing::Test {
 protected:
     static constexpr const char* kSource = "blinn-phong:kd=0.2,ks=0.5,n=20";
