@@ -176,7 +176,7 @@ static std::vector<std::string> methodNames() {
 static std::string factorizeDetails() {
     std::string text =
         "SOURCE is a model (nacre models), a published fit (sgd:gold-paint), a MERL .binary, an RGL .bsdf, a .csv of\n"
-        "samples wi, wo, rgb, or a micro-geometry (micro:height.png,...). Methods:\n";
+        "samples wi, wo, rgb, or a micro-geometry (micro:ridges). Methods:\n";
     for (const FactorizeMethod& m : factorizeMethods())
         text += fmt::format("  {:<14} {} [fits: {}]\n", m.name, m.summary, m.fits);
     return text +

@@ -7,6 +7,7 @@
 #include "cli/terminal.hpp"
 #include "cli/verb.hpp"
 #include "factorize/factorize.hpp"
+#include "factorize/micro/micro.hpp"
 #include "factorize/models/models.hpp"
 
 namespace nacre::cli {
@@ -28,11 +29,18 @@ static std::string modelText(const ModelInfo& model) {
     return out;
 }
 
+/// Analytic models, published fits and micro-geometries: everything that is named instead of read.
+static std::vector<ModelInfo> allModels() {
+    std::vector<ModelInfo> all = listModels();
+    for (const ModelInfo& relief : listMicro()) all.push_back(relief);
+    return all;
+}
+
 /// The models whose name is `name`, or all when it is empty.
 static std::vector<ModelInfo> modelsNamed(const std::string& name) {
-    if (name.empty()) return listModels();
+    if (name.empty()) return allModels();
     std::string known;
-    for (const ModelInfo& model : listModels()) {
+    for (const ModelInfo& model : allModels()) {
         if (model.name == name) return {model};
         known += (known.empty() ? "" : ", ") + model.name;
     }
@@ -45,7 +53,7 @@ Verb modelsVerb(Context&) {
         bool asJson = false;
     };
     const auto s = std::make_shared<Settings>();
-    Verb verb{"models", "List the analytic models with their parameters", "", {}, {}};
+    Verb verb{"models", "List the models and micro-geometries with their parameters", "", {}, {}};
     verb.details =
         "A model is written NAME or NAME:KEY=VALUE,KEY=VALUE. Colours are one number or R/G/B.\n"
         "Example: nacre factorize torrance-sparrow:alpha=0.1,f=conductor,eta=1.5,k=3 -o metal.exr";

@@ -59,6 +59,11 @@ models = [
 ]
 for i, model in enumerate(models):
     write(f"model/{i:02}.txt", model.encode())
+write("samples/vectors.csv", b"# made\nwix,wiy,wiz,wox,woy,woz,r,g,b\n0,0,1,0,0,1,0.1,0.2,0.3\n"
+      b"0.6,0,0.8,0,0.6,0.8,1e-3,0,nan\n\n0,0,1,0.6,0,0.8,-1,0,0\n")
+write("samples/degrees.csv", b"theta_i_deg,phi_i_deg,theta_o_deg,phi_o_deg,r,g,b\r\n10,0,20,180,1,1,1\r\n89.9,0,90,0,1,1,1")
+write("samples/radians.csv", b"theta_i,phi_i,theta_o,phi_o,r,g,b\n0.1,0,0.2,3.14,1,1,inf\n")
+write("samples/header.csv", b"a,b,c\n1,2,3\n")
 write("directions/header.csv", b"wix,wiy,wiz,wox,woy,woz\n0,0,1,0,0,1\n0.6,0,0.8,0,0.6,0.8\r\n# end\n")
 write("directions/bare.csv", b"0,0,1,0,0,1")
 write("directions/broken.csv", b"0,0,1,0,0\n1,nan,inf,1e999,-0,.\n,,,,,\n")

@@ -15,6 +15,7 @@
 #include "factorize/factored_brdf.hpp"
 #include "factorize/measured/merl.hpp"
 #include "factorize/measured/rgl.hpp"
+#include "factorize/measured/samples.hpp"
 #include "factorize/models/models.hpp"
 
 namespace nacre::tests {
@@ -38,6 +39,12 @@ static void readRglBytes(std::span<const std::uint8_t> bytes) {
     requireDefined(evaluateRaw(parseRgl(bytes, "input"), kIn, kOut), "rgl");
 }
 
+static void readSamplesText(std::span<const std::uint8_t> bytes) {
+    for (const BrdfSample& s :
+         parseSamples({reinterpret_cast<const char*>(bytes.data()), bytes.size()}, "input").samples)
+        requireDefined(s.f, "samples");
+}
+
 static void readModelText(std::span<const std::uint8_t> bytes) {
     const Reflectance model = makeModel(std::string(bytes.begin(), bytes.end()));
     requireDefined(model.f(kIn, kOut), model.source.c_str());
@@ -55,11 +62,9 @@ static void readDirections(std::span<const std::uint8_t> bytes) {
 }
 
 const std::vector<FuzzTarget>& fuzzTargets() {
-    static const std::vector<FuzzTarget> targets = {{"asset", readAssetBytes},
-                                                    {"merl", readMerlBytes},
-                                                    {"rgl", readRglBytes},
-                                                    {"model", readModelText},
-                                                    {"directions", readDirections}};
+    static const std::vector<FuzzTarget> targets = {{"asset", readAssetBytes}, {"merl", readMerlBytes},
+                                                    {"rgl", readRglBytes},     {"samples", readSamplesText},
+                                                    {"model", readModelText},  {"directions", readDirections}};
     return targets;
 }
 
