@@ -144,7 +144,9 @@ FactoredBrdf factorizeAnalytic(const Reflectance& r, const TextureSizes& sizes, 
     sampling.maxTheta = 1.5690;  // 89.9°
     std::vector<FitSample> samples = fitSamples(r.f, sampling);
     for (FitSample& sample : samples) sample.base = glm::vec3(diffuse);
-    fitLogTables(model, samples, {4, 25, 1e-6f, options.threads});
+    fitLogTables(
+        model, samples,
+        {.newtonSteps = 4, .conjugateSteps = 25, .smoothness = 1e-4f, .anchored = true, .threads = options.threads});
     report(options.progress, "refined", 1);
 
     FactoredBrdf out;

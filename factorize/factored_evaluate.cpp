@@ -71,8 +71,8 @@ glm::vec3 homomorphic(const FactoredBrdf& b, const glm::vec3& wi, const glm::vec
     const bool quadrant = b.params[0].z > 0.5f;
     const HalfGeometry g = halfGeometry(wi, wo);
     const float w = g.oneMinusLh;
-    glm::vec3 c(0);  // Fresnel's polynomial, params[3..8]
-    for (int k = 8; k >= 3; --k) c = c * w + glm::vec3(b.params[k]);
+    glm::vec3 c(0);  // Fresnel's polynomial, params[3..11]
+    for (int k = 11; k >= 3; --k) c = c * w + glm::vec3(b.params[k]);
     glm::vec3 t(lookup(b.textures[0], mapScaledSlope(g.h, glm::vec2(b.params[0]), quadrant)));
     std::size_t next = 1;
     if (b.params[0].w > 0.5f) {
@@ -82,7 +82,9 @@ glm::vec3 homomorphic(const FactoredBrdf& b, const glm::vec3& wi, const glm::vec
     }
     const float powers = b.params[1].x * std::log(std::max(wi.z, wo.z)) + b.params[1].y * std::log(wi.z * wo.z) +
                          b.params[1].w * std::log(std::max(1.0f - w, 1e-6f));
-    glm::vec3 f = glm::vec3(b.params[2]) + glm::max(c, glm::vec3(0)) * expOf(mix(b, 9, t) - powers);
+    const auto shadowing = static_cast<SmithShadowing>(static_cast<int>(b.params[2].w));
+    const float smith = smithDenominator(shadowing, 1.0f / glm::vec2(b.params[0]), wi, wo);
+    glm::vec3 f = glm::vec3(b.params[2]) + glm::max(c, glm::vec3(0)) * expOf(mix(b, 12, t) - powers) / smith;
     if (b.params[1].z > 0.5f) f += glm::vec3(lookup(b.textures[next], mapElevations(wi.z, wo.z)));
     return f;
 }

@@ -107,7 +107,7 @@ Start tryMiddle(const Bake& bake, double s) {
     start.model = makeModel(bake.layout, start.basis);
     setLookups(start.model, bake.layout, static_cast<float>(s));
     resizeTables(start.model, bake.sizes, 4);
-    FitOptions fit{5, 15, 1e-4f, bake.options.threads};
+    const FitOptions fit{.newtonSteps = 5, .conjugateSteps = 15, .threads = bake.options.threads};
     start.loss = fitLogTables(start.model, samples, fit);
     return start;
 }
@@ -138,10 +138,12 @@ FactoredBrdf factorizeFit(const Reflectance& r, HalfDiffLayout layout, const Tex
 
     report(options.progress, "fitting half size", 0.3);
     resizeTables(model, sizes, 2);
-    fitLogTables(model, bake.samples(80000, best.s), {6, 25, 1e-4f, options.threads});
+    fitLogTables(model, bake.samples(80000, best.s),
+                 {.newtonSteps = 6, .conjugateSteps = 25, .threads = options.threads});
     report(options.progress, "fitting full size", 0.5);
     resizeTables(model, sizes, 1);
-    fitLogTables(model, bake.samples(320000, best.s), {4, 25, 1e-4f, options.threads});
+    fitLogTables(model, bake.samples(320000, best.s),
+                 {.newtonSteps = 4, .conjugateSteps = 25, .threads = options.threads});
     report(options.progress, "fitted", 1);
 
     FactoredBrdf out;

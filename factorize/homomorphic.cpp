@@ -15,13 +15,14 @@
 namespace nacre {
 namespace {
 
-constexpr int kPolynomial = 6;    // coefficients of C, powers 0 to 5 of 1 − l·h
+constexpr int kPolynomial = 9;    // coefficients of C, powers 0 to 8 of 1 − l·h
 constexpr double kDarkLog = -30;  // stands for 0 in a logarithmic table
 
 /// The part of f that costs no texture.
 struct Arithmetic {
     double maxPower = 0, productPower = 0, cosPower = 0;  ///< a, b, c
-    std::array<glm::vec3, kPolynomial> polynomial{};      ///< of 1 − l·h, lowest power first
+    SmithShadowing shadowing = SmithShadowing::None;
+    std::array<glm::vec3, kPolynomial> polynomial{};  ///< of 1 − l·h, lowest power first
 };
 
 struct Plan {
@@ -38,10 +39,12 @@ glm::vec3 polynomialAt(const Arithmetic& a, float w) {
     return sum;
 }
 
-glm::vec3 logOffset(const Arithmetic& a, const glm::vec3& wi, const glm::vec3& wo) {
+glm::vec3 logOffset(const Plan& plan, const glm::vec3& wi, const glm::vec3& wo) {
+    const Arithmetic& a = plan.arithmetic;
     const float w = halfGeometry(wi, wo).oneMinusLh;
     const double powers = a.maxPower * std::log(std::max(wi.z, wo.z)) + a.productPower * std::log(wi.z * wo.z) +
-                          a.cosPower * std::log(1 - w);
+                          a.cosPower * std::log(1 - w) +
+                          std::log(smithDenominator(a.shadowing, glm::vec2(plan.width), wi, wo));
     return glm::log(glm::max(polynomialAt(a, w), glm::vec3(1e-12f))) - static_cast<float>(powers);
 }
 
@@ -53,7 +56,7 @@ void fitPolynomial(const MicrofacetPieces& pieces, Arithmetic& a) {
     for (int i = 0; i < kNodes; ++i) {
         const double w = 0.5 - 0.5 * std::cos(kPi * (i + 0.5) / kNodes), cosD = 1 - w;
         const Rgb f = pieces.fresnel(cosD) * std::pow(cosD, a.cosPower);
-        const double weight = cosD + 0.02;  // grazing differences have little measure
+        const double weight = (cosD + 0.02) / std::max(mean(f), 1e-9);  // relative error; grazing has little measure
         for (int k = 0; k < kPolynomial; ++k) powers(i, k) = weight * std::pow(w, k);
         for (int c = 0; c < 3; ++c) values(i, c) = weight * f[c];
     }
@@ -116,7 +119,7 @@ struct Fitted {
 Fitted fitPlan(const Reflectance& r, const Plan& plan, const TextureSizes& sizes, std::vector<FitSample> samples,
                const FitOptions& fit) {
     for (FitSample& s : samples) {
-        s.offset = logOffset(plan.arithmetic, glm::vec3(s.wi), glm::vec3(s.wo));
+        s.offset = logOffset(plan, glm::vec3(s.wi), glm::vec3(s.wo));
         if (r.microfacet) s.base = glm::vec3(r.microfacet->diffuse(s.wi, s.wo));
     }
     Fitted out{plan, makeModel(plan, sizes)};
@@ -128,24 +131,31 @@ Fitted fitPlan(const Reflectance& r, const Plan& plan, const TextureSizes& sizes
 /// Which arithmetic suits a microfacet model, by coarse fits; P only where it earns its two fetches.
 Plan choosePlan(const Reflectance& r, Plan plan, const std::vector<FitSample>& samples,
                 const FactorizeOptions& options) {
-    struct Powers {
-        double a, b, c;
-    };
+    constexpr auto kNone = SmithShadowing::None;
     const TextureSizes coarse{{32, 32}, {16, 16}};
     Fitted best, bestWithP;
-    for (const Powers& p : {Powers{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0.5, 0}, {1, 0, 1}, {0, 0, 2}}) {
-        plan.arithmetic = {p.a, p.b, p.c, {}};
+    for (const Arithmetic& a : {Arithmetic{0, 0, 0, kNone, {}},
+                                {1, 0, 0, kNone, {}},
+                                {0, 1, 0, kNone, {}},
+                                {0, 0.5, 0, kNone, {}},
+                                {1, 0, 1, kNone, {}},
+                                {0, 0, 2, kNone, {}},
+                                {0, 0, 0, SmithShadowing::Correlated, {}},
+                                {0, 0, 0, SmithShadowing::Separable, {}}}) {
+        plan.arithmetic = a;
         fitPolynomial(*r.microfacet, plan.arithmetic);
-        const FitOptions fit{3, 15, 1e-6f, options.threads};
+        const FitOptions fit{
+            .newtonSteps = 3, .conjugateSteps = 15, .smoothness = 1e-5f, .anchored = true, .threads = options.threads};
         plan.elevations = false;
         if (Fitted tried = fitPlan(r, plan, coarse, samples, fit); tried.loss < best.loss) best = std::move(tried);
         plan.elevations = true;
         if (Fitted tried = fitPlan(r, plan, coarse, samples, fit); tried.loss < bestWithP.loss)
             bestWithP = std::move(tried);
-        report(options.progress, "choosing factors", 0.1 + 0.05 * p.a);
+        report(options.progress, "choosing factors", 0.2);
     }
+    constexpr double kGoodEnough = 3e-5;  // loss of about 0.5 % error: the coarse tables' own
     const bool fetchesAllowed = !options.maxFetches || *options.maxFetches >= 3 + !r.microfacet->diffuseIsConstant;
-    return fetchesAllowed && best.loss > 2 * bestWithP.loss ? bestWithP.plan : best.plan;
+    return fetchesAllowed && best.loss > kGoodEnough && best.loss > 4 * bestWithP.loss ? bestWithP.plan : best.plan;
 }
 
 Plan makePlan(const Reflectance& r, const FactorizeOptions& options) {
@@ -181,7 +191,9 @@ FactoredBrdf factorizeHomomorphic(const Reflectance& r, const TextureSizes& size
     const Plan plan = makePlan(r, options);
     report(options.progress, "fitting", 0.4);
     FitSampleOptions sampling{400000, plan.width, false, 1.55, options.threads};
-    const Fitted fitted = fitPlan(r, plan, sizes, fitSamples(r.f, sampling), {5, 25, 1e-6f, options.threads});
+    const Fitted fitted = fitPlan(
+        r, plan, sizes, fitSamples(r.f, sampling),
+        {.newtonSteps = 5, .conjugateSteps = 25, .smoothness = 1e-5f, .anchored = true, .threads = options.threads});
     report(options.progress, "fitted", 1);
 
     FactoredBrdf out;
@@ -193,12 +205,13 @@ FactoredBrdf factorizeHomomorphic(const Reflectance& r, const TextureSizes& size
     out.params[1] = {a.maxPower, a.productPower, diffuseTextured, a.cosPower};
     if (r.microfacet && !diffuseTextured)
         out.params[2] = glm::vec4(glm::vec3(r.microfacet->diffuse(Vec3(0, 0, 1), Vec3(0, 0, 1))), 0);
+    out.params[2].w = static_cast<float>(a.shadowing);
     for (int k = 0; k < kPolynomial; ++k) out.params[3 + k] = glm::vec4(a.polynomial[k], 0);
     for (int k = 0; k < 3; ++k) {  // colour columns: RGB, or one channel for all three
         const glm::vec4 grey = k == 0 ? glm::vec4(1, 1, 1, 0) : glm::vec4(0);
         glm::vec4 color(0);
         color[k] = 1;
-        out.params[9 + k] = plan.color ? color : grey;
+        out.params[12 + k] = plan.color ? color : grey;
     }
     out.textures.push_back(makeTexture("q", "scaled_slope", fitted.model.tables[0].image(), options.format));
     if (plan.elevations)

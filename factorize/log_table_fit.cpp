@@ -11,6 +11,7 @@ namespace {
 constexpr std::size_t kChunks = 16;  // fixed, so that sums do not depend on the number of threads
 constexpr double kEpsilon = 1e-3;    // ε of E_log [1/sr]
 constexpr double kLogWeight = 0.3;   // of E_log² beside E_L2²
+constexpr float kRidge = 1e-3f;      // pull of every texel to its anchor, beside the smoothness
 constexpr float kMaxExponent = 60;   // e^60 is far above any BRDF and far below float overflow when squared
 
 using Floats = std::vector<float>;
@@ -99,7 +100,7 @@ public:
         });
     }
 
-    /// out += λ·(Laplacian + 1e-3)·p: texels nobody samples follow their neighbours instead of drifting.
+    /// out += λ·(Laplacian + ridge)·p: texels nobody samples follow their neighbours instead of drifting.
     void addSmoothness(const Floats& p, float lambda, Floats& out) const {
         for (std::size_t t = 0; t < model_.tables.size(); ++t) {
             const FitTable& table = model_.tables[t];
@@ -114,7 +115,7 @@ public:
                     const int i = offsets_[t] + y * row + k;
                     if (k + table.channels < row) edge(i, i + table.channels);
                     if (y + 1 < table.height) edge(i, i + row);
-                    out[i] += 1e-3f * lambda * p[i];
+                    out[i] += kRidge * lambda * p[i];
                 }
         }
     }
@@ -256,6 +257,7 @@ void FitTable::resize(int w, int h) {
 double fitLogTables(LogTableModel& model, std::span<const FitSample> samples, const FitOptions& options) {
     require(!samples.empty(), "fitLogTables: no samples");
     Problem problem(model, samples, options.threads);
+    const Floats anchor = options.anchored ? problem.values : Floats(problem.values.size(), 0.0f);
     float damping = 1e-4f;
     double loss = problem.linearise();
     for (int step = 0; step < options.newtonSteps; ++step) {
@@ -263,8 +265,9 @@ double fitLogTables(LogTableModel& model, std::span<const FitSample> samples, co
         double trace = 0;
         for (float d : diagonal) trace += d;
         const float lambda = static_cast<float>(options.smoothness * trace / problem.parameters);
-        Floats pull(b.size(), 0.0f);
-        problem.addSmoothness(problem.values, lambda, pull);
+        Floats pull(b.size(), 0.0f), correction = problem.values;
+        for (std::size_t i = 0; i < b.size(); ++i) correction[i] -= anchor[i];
+        problem.addSmoothness(correction, lambda, pull);
         for (std::size_t i = 0; i < b.size(); ++i) b[i] -= pull[i];
         const Floats x = solve(problem, lambda, damping, std::move(diagonal), std::move(b), options.conjugateSteps);
 

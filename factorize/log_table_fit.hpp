@@ -53,6 +53,7 @@ struct FitOptions {
     int newtonSteps = 6;
     int conjugateSteps = 30;
     float smoothness = 1e-4f;  ///< weight of squared texel differences, relative to the mean diagonal
+    bool anchored = false;     ///< tables start filled: smooth the correction to them, not the tables
     unsigned threads = 0;
 };
 

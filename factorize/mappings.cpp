@@ -63,6 +63,13 @@ glm::vec3 differenceVector(const glm::vec3& h, const glm::vec3& wi) {
     return {glm::dot(wi, x), glm::dot(wi, y), glm::dot(wi, h)};
 }
 
+float smithDenominator(SmithShadowing shadowing, const glm::vec2& width, const glm::vec3& wi, const glm::vec3& wo) {
+    if (shadowing == SmithShadowing::None) return 1;
+    const glm::vec3 scale(width, 1.0f);
+    const float si = glm::length(scale * wi), so = glm::length(scale * wo);
+    return shadowing == SmithShadowing::Correlated ? wo.z * si + wi.z * so : (wi.z + si) * (wo.z + so);
+}
+
 double inverseHalfDiffSlope(double u, double s) { return s * u * u / (1 - u * u); }
 
 double inverseHalfDiffCosine(double v) { return 1 - v * v; }

@@ -52,6 +52,15 @@ inline float toTexelCentres(float u, int size) {
     return (u * static_cast<float>(size - 1) + 0.5f) / static_cast<float>(size);
 }
 
+/// Smith's shadowing of an anisotropic GGX distribution as arithmetic (Heitz 2014): what 4 cosα cosβ / G comes to, up
+/// to a constant. S(w) = |(αx x, αy y, z)|.
+enum class SmithShadowing {
+    None,        ///< 1
+    Correlated,  ///< zo S(wi) + zi S(wo): heights of light and viewer correlated
+    Separable    ///< (zi + S(wi)) (zo + S(wo))
+};
+float smithDenominator(SmithShadowing shadowing, const glm::vec2& width, const glm::vec3& wi, const glm::vec3& wo);
+
 // Inverses, for filling tables from formulas.
 
 struct ElevationPair {

@@ -141,6 +141,32 @@ static void fillOpenCells(MerlTable& table, std::vector<std::uint8_t>& state) {
     }
 }
 
+/// Averages every cell with its mirror image, φd → π − φd, and keeps how far apart they were. A surface that has no
+/// direction of its own looks the same in a mirror; with the table's own φd + π that makes f the same for exchanged
+/// elevations, which the raw values are not.
+static void symmetrise(MerlTable& table, const std::vector<std::uint8_t>& measured) {
+    double gap = 0, total = 0;
+    for (int h = 0; h < kMerlThetaH; ++h)
+        for (int d = 0; d < kMerlThetaD; ++d) {
+            const double u = (h + 0.5) / kMerlThetaH, thetaH = kPi / 2 * u * u,
+                         thetaD = kPi / 2 * (d + 0.5) / kMerlThetaD;
+            for (int p = 0; p < kMerlPhiD / 2; ++p) {
+                const std::size_t i = cellIndex(h, d, p), j = cellIndex(h, d, kMerlPhiD - 1 - p);
+                const glm::vec3 a = table.cells[i], b = table.cells[j];
+                table.cells[i] = table.cells[j] = 0.5f * (a + b);
+                const double rise = std::cos(thetaH) * std::cos(thetaD),
+                             tilt = std::sin(thetaH) * std::sin(thetaD) * std::cos(kPi * (p + 0.5) / kMerlPhiD);
+                if (rise - std::abs(tilt) < std::cos(80 * kPi / 180) || !measured[i] || !measured[j]) continue;
+                // dμ of a cell: cosθi cosθo · 4 cosθd · sinθh sinθd, dθh ∝ u.
+                const double measure =
+                    (rise * rise - tilt * tilt) * std::cos(thetaD) * std::sin(thetaH) * std::sin(thetaD) * u;
+                gap += 2 * measure * glm::dot(Vec3(a - b), Vec3(a - b));
+                total += measure * (glm::dot(Vec3(a), Vec3(a)) + glm::dot(Vec3(b), Vec3(b)));
+            }
+        }
+    table.mirrorResidual = total > 0 ? std::sqrt(gap / total) : 0;
+}
+
 MerlTable parseMerl(std::span<const std::uint8_t> bytes, const std::string& name) {
     checkSize(bytes, name);
     MerlTable table;
@@ -151,9 +177,13 @@ MerlTable parseMerl(std::span<const std::uint8_t> bytes, const std::string& name
             fmt::format("{}: expected a finite value ≥ 0 above the horizon, found none in {} cells", name, kMerlCells));
     table.data.rule = fmt::format(
         "cells with a number that is -1 (missing), negative or not finite, {} of them above the horizon, and cells "
-        "below the horizon are filled by the mean of their usable neighbours, nearest first",
+        "below the horizon are filled by the mean of their usable neighbours, nearest first; then every cell is "
+        "averaged "
+        "with its mirror image in azimuth",
         holes);
+    const std::vector<std::uint8_t> measured = state;
     fillOpenCells(table, state);
+    symmetrise(table, measured);
     return table;
 }
 
@@ -209,6 +239,7 @@ Reflectance openMerl(const std::filesystem::path& path) {
     out.kind = "merl";
     out.hash = contentHash({reinterpret_cast<const char*>(bytes.data()), bytes.size()});
     out.data = table->data;
+    out.reciprocityResidual = table->mirrorResidual;
     out.f = [table](const Vec3& wi, const Vec3& wo) { return evaluate(*table, wi, wo); };
     return out;
 }

@@ -20,6 +20,9 @@ inline constexpr std::size_t kMerlCells = std::size_t{90} * 90 * 180;
 struct MerlTable {
     std::vector<glm::vec3> cells;  ///< kMerlCells, [thetaH][thetaD][phiD]; finite, ≥ 0
     DataReport data;               ///< entries are numbers in the file: three a cell
+    /// E_L2 of the raw cells against their mirror images, φd → π − φd, within 80°: exchanging the two elevations of a
+    /// pair is that mirror, for φd + π is the same cell by format.
+    double mirrorResidual = 0;
 };
 
 /// Parses a file's bytes: int32 90, 90, 180, then three channels of kMerlCells little-endian doubles, to be multiplied
