@@ -4,15 +4,60 @@
 
 #include <algorithm>
 #include <cctype>
+#include <cmath>
 
 #include "core/error.hpp"
 
 namespace nacre {
 
+namespace {
+
+struct Place {
+    int index, component;
+};
+
+/// Constants that choose a variant of a form: whole numbers.
+std::vector<Place> selectors(FactoredForm form) {
+    switch (form) {
+        case FactoredForm::HalfDiff:
+            return {{0, 1}};  // layout
+        case FactoredForm::SingleLobe:
+            return {{0, 1}, {0, 2}};  // argument, unit axis
+        case FactoredForm::Homomorphic:
+            return {{0, 2}, {0, 3}, {1, 2}, {2, 3}};  // quadrant, textures, Smith
+        case FactoredForm::Separable:
+            return {{0, 0}, {0, 1}, {0, 2}};  // terms, arguments, logarithmic
+        case FactoredForm::Cosine:
+        case FactoredForm::Tangent:
+            break;
+    }
+    return {};
+}
+
+/// Constants that drop a logarithm when they are 0.
+std::vector<Place> powers(FactoredForm form) {
+    if (form == FactoredForm::Homomorphic) return {{1, 0}, {1, 1}, {1, 3}};
+    return {};
+}
+
+std::string literal(const Place& at, float value) {
+    return fmt::format("p[{}].{} = {:.1f}; ", at.index, "xyzw"[at.component], value);
+}
+
+}  // namespace
+
 ShaderDefines factoredDefines(const FactoredBrdf& brdf) {
     std::string name = toString(brdf.form);
     std::transform(name.begin(), name.end(), name.begin(), [](unsigned char c) { return std::toupper(c); });
-    return {{"NACRE_FORM", "NACRE_FORM_" + name}};
+    ShaderDefines out{{"NACRE_FORM", "NACRE_FORM_" + name}};
+    const auto valueAt = [&brdf](const Place& at) { return brdf.params[at.index][at.component]; };
+    std::string literals;
+    for (const Place& at : selectors(brdf.form))
+        if (valueAt(at) == std::round(valueAt(at))) literals += literal(at, valueAt(at));
+    for (const Place& at : powers(brdf.form))
+        if (valueAt(at) == 0) literals += literal(at, 0);
+    if (!literals.empty()) out.emplace_back("NACRE_SPECIALIZE", literals);
+    return out;
 }
 
 GpuFactoredBrdf::GpuFactoredBrdf(const FactoredBrdf& brdf) : defines_(factoredDefines(brdf)), params_(brdf.params) {

@@ -40,9 +40,9 @@ ShaderText readShader(const std::vector<std::filesystem::path>& folders, const s
 /// Header for `dialect` (for ES with precisions), the defines, then `entry` with each line `#include "file"` replaced
 /// by that file, as often as it appears: files guard themselves (NACRE_NAME_GLSL), because an include within an #if may
 /// be skipped by the compiler. An include of a file that is being included (a cycle) becomes an empty line.
-/// #line directives keep line numbers and source string numbers right. An include of a file that is in no folder becomes
-/// an #error that says so: whether its #if is taken is the compiler's business.
-/// \throws nacre::Error naming file and line of a malformed #include
+/// #line directives keep line numbers and source string numbers right. An include of a file that is in no folder
+/// becomes an #error that says so: whether its #if is taken is the compiler's business. \throws nacre::Error naming
+/// file and line of a malformed #include
 ShaderSource assembleShader(const std::vector<std::filesystem::path>& folders, const ShaderText& entry, Glsl dialect,
                             const ShaderDefines& defines = {});
 

@@ -1,5 +1,6 @@
 #include "gpu_evaluate.hpp"
 
+#include <cstdlib>
 #include <optional>
 
 #include "core/sampling.hpp"
@@ -34,6 +35,8 @@ Image packDirections(std::span<const DirectionPair> pairs, int height, bool inci
 }  // namespace
 
 const Context& context(GlApi api) {
+    // llvmpipe filters 8-bit textures with 256 weights, unless told to be exact before its first context
+    setenv("GALLIVM_PERF", "no_aos_sampling", 0);
     static std::optional<Context> core45, core33, es3;  // kept until the program ends
     std::optional<Context>& kept = api == GlApi::Core45 ? core45 : api == GlApi::Core33 ? core33 : es3;
     if (!kept) kept.emplace(api);

@@ -33,11 +33,10 @@ std::string textOf(const std::string& file) { return readShader({shaderFolder()}
 const std::pair<GlApi, Glsl> kDialects[] = {
     {GlApi::Core45, Glsl::V330}, {GlApi::Core45, Glsl::V450}, {GlApi::Es3, Glsl::Es300}};
 
-/// The #defines under which a file of nacre/bind is compiled: each choice it knows whose files are there.
+/// The #defines under which a file of nacre/bind is compiled: each choice it knows.
 std::vector<ShaderDefines> factoredChoices() {
     std::vector<ShaderDefines> out;
     for (const char* form : {"half_diff", "cosine", "single_lobe", "tangent", "homomorphic", "separable"}) {
-        if (!fs::exists(shaderFolder() / "nacre" / (std::string("factored_") + form + ".glsl"))) continue;
         std::string name = std::string("NACRE_FORM_") + form;
         std::transform(name.begin(), name.end(), name.begin(), [](unsigned char c) { return std::toupper(c); });
         out.push_back({{"NACRE_FORM", name}});

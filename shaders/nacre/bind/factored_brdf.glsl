@@ -34,22 +34,33 @@ uniform vec4 nacre_brdf_bias[4];
 #include "nacre/factored_separable.glsl"
 #endif
 
+// The constants, with those that choose a variant written as literals where the program gives them
+// (#define NACRE_SPECIALIZE p[0].y = 3.0; ...): the compiler then drops the other variants, and their fetches.
+void nacre_brdf_constants(out vec4 p[16]) {
+    p = nacre_brdf_params;
+#ifdef NACRE_SPECIALIZE
+    NACRE_SPECIALIZE
+#endif
+}
+
 // f(wi, wo) [1/sr] in the local frame; 0 when either direction is at or below the horizon.
 vec3 nacre_factored_brdf(vec3 wi, vec3 wo) {
     if (wi.z <= 0.0 || wo.z <= 0.0) return vec3(0.0);
+    vec4 p[16];
+    nacre_brdf_constants(p);
 #if NACRE_FORM == NACRE_FORM_HALF_DIFF
-    return nacre_half_diff(nacre_brdf_tex0, nacre_brdf_tex1, nacre_brdf_params, nacre_brdf_scale, nacre_brdf_bias, wi, wo);
+    return nacre_half_diff(nacre_brdf_tex0, nacre_brdf_tex1, p, nacre_brdf_scale, nacre_brdf_bias, wi, wo);
 #elif NACRE_FORM == NACRE_FORM_COSINE
-    return nacre_cosine(nacre_brdf_tex0, nacre_brdf_tex1, nacre_brdf_params, nacre_brdf_scale, nacre_brdf_bias, wi, wo);
+    return nacre_cosine(nacre_brdf_tex0, nacre_brdf_tex1, p, nacre_brdf_scale, nacre_brdf_bias, wi, wo);
 #elif NACRE_FORM == NACRE_FORM_SINGLE_LOBE
-    return nacre_single_lobe(nacre_brdf_tex0, nacre_brdf_params, nacre_brdf_scale, nacre_brdf_bias, wi, wo);
+    return nacre_single_lobe(nacre_brdf_tex0, p, nacre_brdf_scale, nacre_brdf_bias, wi, wo);
 #elif NACRE_FORM == NACRE_FORM_TANGENT
-    return nacre_tangent(nacre_brdf_tex0, nacre_brdf_params, nacre_brdf_scale, nacre_brdf_bias, wi, wo);
+    return nacre_tangent(nacre_brdf_tex0, p, nacre_brdf_scale, nacre_brdf_bias, wi, wo);
 #elif NACRE_FORM == NACRE_FORM_HOMOMORPHIC
-    return nacre_homomorphic(nacre_brdf_tex0, nacre_brdf_tex1, nacre_brdf_tex2, nacre_brdf_params, nacre_brdf_scale,
+    return nacre_homomorphic(nacre_brdf_tex0, nacre_brdf_tex1, nacre_brdf_tex2, p, nacre_brdf_scale,
                              nacre_brdf_bias, wi, wo);
 #elif NACRE_FORM == NACRE_FORM_SEPARABLE
-    return nacre_separable(nacre_brdf_tex0, nacre_brdf_tex1, nacre_brdf_tex2, nacre_brdf_tex3, nacre_brdf_params,
+    return nacre_separable(nacre_brdf_tex0, nacre_brdf_tex1, nacre_brdf_tex2, nacre_brdf_tex3, p,
                            nacre_brdf_scale, nacre_brdf_bias, wi, wo);
 #endif
 }
@@ -58,11 +69,13 @@ vec3 nacre_factored_brdf(vec3 wi, vec3 wo) {
 // The same from the coordinates that texture matrices give (forms cosine and tangent). cosines: cos theta_d, cos delta,
 // cos alpha, cos beta; along: t.wi, t.wo. Both may be interpolated; cos alpha, cos beta > 0.
 vec3 nacre_factored_brdf_at(vec4 cosines, vec2 along) {
+    vec4 p[16];
+    nacre_brdf_constants(p);
 #if NACRE_FORM == NACRE_FORM_COSINE
-    return nacre_cosine_at(nacre_brdf_tex0, nacre_brdf_tex1, nacre_brdf_params, nacre_brdf_scale, nacre_brdf_bias,
+    return nacre_cosine_at(nacre_brdf_tex0, nacre_brdf_tex1, p, nacre_brdf_scale, nacre_brdf_bias,
                            cosines.xy, cosines.zw);
 #elif NACRE_FORM == NACRE_FORM_TANGENT
-    return nacre_tangent_at(nacre_brdf_tex0, nacre_brdf_params, nacre_brdf_scale, nacre_brdf_bias, along);
+    return nacre_tangent_at(nacre_brdf_tex0, p, nacre_brdf_scale, nacre_brdf_bias, along);
 #endif
 }
 #endif
