@@ -1,6 +1,7 @@
 // The rasterised picture against the ray-traced one: same mesh, lights, camera and BRDF.
 #include <gtest/gtest.h>
 
+#include "factorize/factorize.hpp"
 #include "factorize/models/models.hpp"
 #include "gpu_evaluate.hpp"
 #include "reference/image_compare.hpp"
@@ -46,22 +47,26 @@ std::vector<Light> someLights() {
 // handedness, or a light's fall-off left out, is off by more than 0.1.
 constexpr double kRelative = 1e-3;
 
+void expectSamePicture(const Mesh& mesh, const LitView& view, const BrdfFunction& brdf, const Image& picture) {
+    const RaytracedPicture truth = raytrace(mesh, view.camera, view.lights, brdf, {.width = kSize, .height = kSize});
+    const Image mask = interior(truth.coverage);
+    const double white = pictureWhite(truth.radiance, mask);
+    const ImageDifference difference = compareImages(picture, truth.radiance, white, mask);
+    EXPECT_GT(difference.pixels, 500u);
+    EXPECT_LT(difference.relative, kRelative);
+    EXPECT_LT(difference.maxAbs / white, 10 * kRelative);
+}
+
 void expectSamePicture(const Mesh& mesh, const std::string& model, bool orthographic) {
+    SCOPED_TRACE(model + (orthographic ? " orthographic" : " perspective"));
     const Reflectance reflectance = makeModel(model);
     const LitView view{lookingAt(orthographic), someLights()};
-    const RaytracedPicture truth =
-        raytrace(mesh, view.camera, view.lights, reflectance.f, {.width = kSize, .height = kSize});
     test::context();
     ProgramLoader loader;
     const RenderTarget target({.width = kSize, .height = kSize});
     target.clear();
     renderDirect(loader, target, GpuMesh(mesh), view, directBrdf(reflectance).value());
-    const Image mask = interior(truth.coverage);
-    const double white = pictureWhite(truth.radiance, mask);
-    const ImageDifference difference = compareImages(target.read(), truth.radiance, white, mask);
-    EXPECT_GT(difference.pixels, 500u);
-    EXPECT_LT(difference.relative, kRelative) << model << (orthographic ? " orthographic" : " perspective");
-    EXPECT_LT(difference.maxAbs / white, 10 * kRelative) << model;
+    expectSamePicture(mesh, view, reflectance.f, target.read());
 }
 
 TEST(LitPass, MatchesTheRayTracer) {
@@ -71,6 +76,28 @@ TEST(LitPass, MatchesTheRayTracer) {
         expectSamePicture(torus, "ggx:alphax=0.1,alphay=0.4,f=conductor", orthographic);
     }
     expectSamePicture(makeSphere(1, 32, 16, TangentDirection::Radial), "banks:n=20", false);
+}
+
+// The ray tracer evaluates the C++ twin of the lookup: same tables, same filter, so the same picture.
+TEST(LitPass, FactoredMatchesTheRayTracer) {
+    test::context();
+    ProgramLoader loader;
+    const Mesh sphere = makeSphere(1, 64, 32);
+    const GpuMesh gpuSphere(sphere);
+    for (const auto& [model, method] : {std::pair{"torrance-sparrow:alpha=0.4,kd=0.2", "cosine"},
+                                        {"blinn-phong:n=50,kd=0.3", "single-lobe"},
+                                        {"banks:n=20", "tangent"}}) {
+        SCOPED_TRACE(model);
+        FactorizeOptions options;
+        options.method = method;
+        const FactoredBrdf factored = factorize(makeModel(model), options);
+        const LitView view{lookingAt(false), someLights()};
+        const RenderTarget target({.width = kSize, .height = kSize});
+        target.clear();
+        renderFactored(loader, target, gpuSphere, view, GpuFactoredBrdf(factored));
+        expectSamePicture(
+            sphere, view, [&](const Vec3& wi, const Vec3& wo) { return evaluate(factored, wi, wo); }, target.read());
+    }
 }
 
 // Tangents whose length and angle to the normal are off, and left-handed frames.
