@@ -91,6 +91,29 @@ TEST(Addressing, ComputesTheLookup) {
         }
 }
 
+// "Fast Phong" does not normalise: between normals tilted by +60 and -60 degrees the interpolated n·l stays cos 60,
+// where a normalised vector would face the light, and the per-pixel picture does.
+TEST(Addressing, PerVertexVectorsShrinkBetweenVertices) {
+    test::context();
+    ProgramLoader loader;
+    Mesh quad = makeQuad();
+    for (std::size_t i = 0; i < quad.positions.size(); ++i) {
+        const double tilt = (quad.positions[i].y > 0 ? 1 : -1) * kPi / 3;
+        quad.normals[i] = glm::vec3(0, std::sin(tilt), std::cos(tilt));
+    }
+    LitView view;
+    view.lights = {Light{true, {0, 0, 1}, Rgb(kPi)}};
+    const GpuDirectBrdf white = directBrdf(makeModel("lambert:kd=1")).value();
+    const auto middle = [&](Addressing addressing) {
+        const RenderTarget target({.width = 9, .height = 9});
+        target.clear();
+        renderDirect(loader, target, GpuMesh(quad), view, white, addressing);
+        return target.read().rgb(4, 4).g;
+    };
+    EXPECT_NEAR(middle(Addressing::PerVertex), 0.5, 1e-5);
+    EXPECT_NEAR(middle(Addressing::PerPixel), 1.0, 1e-5);
+}
+
 TEST(Addressing, TextureMatricesRejectWhatTheyCannotDo) {
     test::context();
     ProgramLoader loader;

@@ -42,7 +42,10 @@ AssetTexture waves(int width, int height, int channels, int seed, double size) {
                 image.at(x, y, c) = static_cast<float>(
                     size * (std::sin(3 * u + phase) + std::cos(4 * v - phase) + 0.5 * std::sin(9 * u * v + 3 * phase)));
             }
-    return makeTexture("t" + std::to_string(seed), "test", image, TexelFormat::Half);
+    AssetTexture texture = makeTexture("t" + std::to_string(seed), "test", image, TexelFormat::Half);
+    texture.scale = {0.9f, 1.1f, 0.8f, 1.2f};  // as a baker may divide a table by a constant
+    texture.bias = {0.1f, -0.2f, 0.3f, -0.4f};
+    return texture;
 }
 
 FactoredBrdf arbitrary(FactoredForm form, int textures, const std::vector<glm::vec4>& first) {
