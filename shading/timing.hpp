@@ -7,8 +7,8 @@
 
 namespace nacre {
 
-/// Wall: between two glFinish. Query: GL_TIME_ELAPSED, the GPU's own time (desktop OpenGL).
-enum class FrameClock { Wall, Query };
+/// Wall: between two glFinish. Gpu: GL_TIME_ELAPSED, the GPU's own time (desktop OpenGL).
+enum class FrameClock { Wall, Gpu };
 
 struct TimingOptions {
     int repeats = 15;      ///< measurements of each frame, >= 1

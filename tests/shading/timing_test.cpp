@@ -34,8 +34,8 @@ TEST(Timing, MoreWorkTakesLonger) {
         });
     };
     const std::function<void()> frames[] = {frame(slight, 's'), frame(heavy, 'h')};
-    for (FrameClock clock : {FrameClock::Wall, FrameClock::Query}) {
-        SCOPED_TRACE(clock == FrameClock::Wall ? "wall" : "query");
+    for (FrameClock clock : {FrameClock::Wall, FrameClock::Gpu}) {
+        SCOPED_TRACE(clock == FrameClock::Wall ? "wall" : "gpu");
         order.clear();
         const auto seconds = medianFrameSeconds(frames, {.repeats = 7, .least = 0.0005, .clock = clock});
         ASSERT_EQ(seconds.size(), 2u);

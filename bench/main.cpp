@@ -1,0 +1,169 @@
+// nacre_bench: bakes every material with every method, measures error, bytes, bake time and frame time, and writes the
+// report.
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <CLI/CLI.hpp>
+#include <chrono>
+#include <cstdlib>
+#include <fstream>
+#include <optional>
+#include <thread>
+
+#include "bench/report.hpp"
+#include "core/error.hpp"
+#include "core/file.hpp"
+#include "core/version.hpp"
+
+namespace nacre::bench {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Arguments {
+    std::string out = "build/bench", shared;
+    std::vector<std::string> materials;
+    bool quick = false, barsOnly = false, noBars = false, noGpu = false, quiet = false, list = false;
+};
+
+/// $NACRE_SHARED, else ../shared beside the working folder.
+std::string defaultShared() {
+    const char* shared = std::getenv("NACRE_SHARED");
+    return shared != nullptr ? shared : "../shared";
+}
+
+std::string machineWords() {
+    std::ifstream cpu("/proc/cpuinfo");
+    for (std::string line; std::getline(cpu, line);)
+        if (line.rfind("model name", 0) == 0)
+            return fmt::format("{}, {} cores", line.substr(std::min(line.find(": "), line.size() - 2) + 2),
+                               std::thread::hardware_concurrency());
+    return fmt::format("{} cores", std::thread::hardware_concurrency());
+}
+
+Progress progressOn(bool quiet) {
+    if (quiet) return {};
+    return [terminal = isatty(2) != 0](const std::string& what, double) {
+        fmt::print(stderr, "{}bench: {}{}", terminal ? "\r\033[K" : "", what, terminal ? "" : "\n");
+        std::fflush(stderr);
+    };
+}
+
+std::optional<GpuLab> openLab(const Arguments& arguments, std::vector<std::string>& notes) {
+    if (arguments.noGpu) return std::nullopt;
+    try {
+        return std::optional<GpuLab>(std::in_place, arguments.quick ? 5 : 11);
+    } catch (const Error& error) {
+        notes.push_back(std::string("No OpenGL, so no frame times: ") + error.what());
+        return std::nullopt;
+    }
+}
+
+bool isMeasured(const std::vector<Measurement>& list, const Material& material, const Setting& setting) {
+    return std::any_of(list.begin(), list.end(), [&](const Measurement& m) {
+        return m.material.name == material.name && text(m.setting) == text(setting);
+    });
+}
+
+/// Every setting of one material that isn't measured yet. A setting that gives what an earlier one of the method gave
+/// is dropped.
+void sweep(const Material& material, bool quick, GpuLab* lab, const Progress& progress, std::vector<Measurement>& out) {
+    const OpenMaterial opened = open(material);
+    const std::size_t first = out.size();
+    for (const Setting& setting : sweepSettings(quick)) {
+        if (isMeasured(out, material, setting)) continue;
+        report(progress, material.name + ": " + text(setting), 0);
+        std::optional<Baked> baked;
+        try {
+            baked = bake(material, opened, setting, quick ? 50000 : 200000);
+        } catch (const Error& error) {
+            report(progress, std::string("no bake: ") + error.what(), 0);
+        }
+        if (!baked) continue;
+        const Measurement& m = baked->measurement;
+        const bool seen =
+            std::any_of(out.begin() + static_cast<std::ptrdiff_t>(first), out.end(), [&](const Measurement& o) {
+                return o.setting.method == m.setting.method && o.bytes == m.bytes && o.fetches == m.fetches &&
+                       o.error.l2Rel == m.error.l2Rel;
+            });
+        if (seen) continue;
+        out.push_back(m);
+        if (lab) out.back().cost = lab->cost(baked->brdf, opened.reflectance);
+    }
+}
+
+void writeReport(const Report& report, const fs::path& folder) {
+    std::error_code failed;
+    fs::create_directories(folder, failed);
+    if (failed) throw Error(folder.string() + ": expected a folder to write to, found: " + failed.message());
+    writeFile(folder / "report.json", reportJson(report).dump(1) + "\n");
+    writeFile(folder / "index.html", reportPage(report));
+}
+
+int run(const Arguments& arguments) {
+    const auto start = std::chrono::steady_clock::now();
+    const Progress progress = progressOn(arguments.quiet);
+    Report report;
+    report.version = nacreVersion();
+    report.machine = machineWords();
+    report.quick = arguments.quick;
+    const MaterialList list = benchMaterials({.shared = arguments.shared,
+                                              .cache = fs::path(arguments.out) / "merl",
+                                              .quick = arguments.quick,
+                                              .only = arguments.materials,
+                                              .progress = progress});
+    report.notes = list.notes;
+    if (arguments.list) {
+        for (const Material& m : list.materials) fmt::print("{}\t{}\n", m.name, m.source);
+        return 0;
+    }
+    std::optional<GpuLab> lab = openLab(arguments, report.notes);
+    GpuLab* const gpu = lab ? &*lab : nullptr;
+    if (lab) report.renderer = lab->description();
+    if (!arguments.noBars) report.bars = measureBars(list.materials, gpu, {.progress = progress}, &report.measurements);
+    if (!arguments.barsOnly)
+        for (const Material& m : list.materials) sweep(m, arguments.quick, gpu, progress, report.measurements);
+    report.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    if (!arguments.quiet && isatty(2) != 0) fmt::print(stderr, "\r\033[K");
+    fmt::print("{}", barTable(report.bars));
+    if (arguments.barsOnly) return 0;
+    writeReport(report, arguments.out);
+    if (!arguments.quiet)
+        fmt::print(stderr, "bench: {} bakes in {:.0f} s: {}\n", report.measurements.size(), report.seconds,
+                   (fs::path(arguments.out) / "index.html").string());
+    return 0;
+}
+
+}  // namespace
+}  // namespace nacre::bench
+
+int main(int argc, char** argv) {
+    nacre::bench::Arguments arguments;
+    arguments.shared = nacre::bench::defaultShared();
+    CLI::App app(
+        "Measures error, bytes, bake time and frame time of every factorization; writes report.json and index.html.");
+    app.add_option("--out", arguments.out, "folder to write")->capture_default_str();
+    app.add_option("--shared", arguments.shared, "folder with data/brdf and tools, for measured materials")
+        ->capture_default_str();
+    app.add_option("--materials", arguments.materials, "only these (names as --list prints them)");
+    app.add_flag("--quick", arguments.quick, "few materials and settings: a minute or two");
+    app.add_flag("--bars", arguments.barsOnly, "print the promised figures as PASS or MISS, and nothing else");
+    app.add_flag("--no-bars", arguments.noBars, "leave the promised figures out");
+    app.add_flag("--no-gpu", arguments.noGpu, "no frame times");
+    app.add_flag("--list", arguments.list, "print the materials");
+    app.add_flag("--quiet", arguments.quiet, "no progress");
+    try {
+        app.parse(argc, argv);
+    } catch (const CLI::ParseError& error) {
+        return app.exit(error) == 0 ? 0 : 2;
+    }
+    try {
+        return nacre::bench::run(arguments);
+    } catch (const std::invalid_argument& error) {
+        fmt::print(stderr, "nacre_bench: {}\n", error.what());
+        return 2;
+    } catch (const std::exception& error) {
+        fmt::print(stderr, "nacre_bench: {}\n", error.what());
+        return 1;
+    }
+}
