@@ -6,7 +6,7 @@ root=$(cd "$(dirname "$0")/.." && pwd)
 data=${1:-$root/build/data}
 package=libcgal-demo
 archive=usr/share/doc/libcgal-dev/data.tar.gz
-meshes='armadillo ChineseDragon-10kv refined_elephant lion-head bear camel'
+meshes='armadillo bunny00 ChineseDragon-10kv lion-head refined_elephant camel'
 
 missing=
 for mesh in $meshes; do

@@ -6,11 +6,24 @@
 #include <set>
 
 #include "core/error.hpp"
-#include "demos/color_map.hpp"
 #include "demos/page_style.hpp"
+#include "reference/image_compare.hpp"
+#include "reference/tone.hpp"
 
 namespace nacre {
 namespace {
+
+/// differenceColor from 0 to 1 as CSS.
+std::string differenceGradient() {
+    constexpr int kStops = 11;
+    std::string css = "linear-gradient(to right";
+    for (int i = 0; i < kStops; ++i) {
+        const Rgb c = differenceColor(static_cast<double>(i) / (kStops - 1));
+        css += fmt::format(", rgb({:.0f} {:.0f} {:.0f})", 255 * srgbEncode(c.r), 255 * srgbEncode(c.g),
+                           255 * srgbEncode(c.b));
+    }
+    return css + ")";
+}
 
 std::string dataUri(const Picture& picture) { return "data:image/png;base64," + base64(picture.png); }
 
@@ -27,9 +40,11 @@ std::string scaleBar(double scale) {
     return "<div class=\"scale\"></div><div class=\"ticks\">" + ticks + "</div>";
 }
 
-std::string ratio(double factored, double direct) { return formatNumber(direct / factored, 3) + "×"; }
+std::string ratio(const Entry& e, const Shot& shot) {
+    return e.directMilliseconds ? costRatio(shot.milliseconds, *e.directMilliseconds, e.geometryMilliseconds) : "–";
+}
 
-std::string psnrText(double psnr) { return std::isfinite(psnr) ? fmt::format("{:.1f} dB", psnr) : "identical"; }
+std::string psnrText(double psnr) { return psnr < 200 ? fmt::format("{:.1f} dB", psnr) : "identical"; }
 
 std::string percent(double share) { return formatNumber(100 * share, 3) + " %"; }
 
@@ -46,32 +61,32 @@ std::string headRow(const std::vector<std::string>& names) {
 
 std::string summaryTable(const Gallery& gallery) {
     std::string html = "<table class=\"cards\">" +
-                       headRow({"entry", "E<sub>L2</sub>", "picture", "bytes", "fetches", "frame", "direct ÷ frame"}) +
+                       headRow({"entry", "E<sub>L2</sub>", "picture", "bytes", "fetches", "frame", "cost ratio"}) +
                        "<tbody>\n";
     for (const Entry& e : gallery.entries) {
         const Shot& shot = e.shots.front();
         html += fmt::format("<tr><td><a href=\"#{}\">{}</a></td>", e.id, escapeHtml(e.title)) +
                 cell("E_L2", percent(e.asset.l2Rel)) + cell("picture", psnrText(shot.psnr)) +
                 cell("bytes", formatBytes(e.asset.bytes)) + cell("fetches", std::to_string(e.asset.fetches)) +
-                cell("frame", formatNumber(shot.milliseconds) + " ms") +
-                cell("direct ÷ frame", e.directMilliseconds ? ratio(shot.milliseconds, *e.directMilliseconds) : "–") +
-                "</tr>\n";
+                cell("frame", formatNumber(shot.milliseconds) + " ms") + cell("cost ratio", ratio(e, shot)) + "</tr>\n";
     }
     return html + "</tbody></table>\n";
 }
 
+std::string timeRow(const std::string& name, double milliseconds) {
+    return fmt::format("<tr><td>{}</td>", escapeHtml(name)) + cell("PSNR", "–") + cell("rel. error", "–") +
+           cell("frame", formatNumber(milliseconds) + " ms") + cell("cost ratio", "–") + "</tr>\n";
+}
+
 std::string shotTable(const Entry& e) {
-    std::string html = "<table class=\"cards\">" +
-                       headRow({"drawn", "PSNR", "relative error", "frame", "direct ÷ frame"}) + "<tbody>\n";
+    std::string html =
+        "<table class=\"cards\">" + headRow({"drawn", "PSNR", "relative error", "frame", "cost ratio"}) + "<tbody>\n";
     for (const Shot& shot : e.shots)
-        html +=
-            fmt::format("<tr><td>{}</td>", escapeHtml(shot.label)) + cell("PSNR", psnrText(shot.psnr)) +
-            cell("rel. error", percent(shot.relativeError)) + cell("frame", formatNumber(shot.milliseconds) + " ms") +
-            cell("direct ÷", e.directMilliseconds ? ratio(shot.milliseconds, *e.directMilliseconds) : "–") + "</tr>\n";
-    if (e.directMilliseconds)
-        html += fmt::format("<tr><td>evaluated directly: {}</td>", escapeHtml(e.directLabel)) + cell("PSNR", "–") +
-                cell("rel. error", "–") + cell("frame", formatNumber(*e.directMilliseconds) + " ms") +
-                cell("direct ÷", "1") + "</tr>\n";
+        html += fmt::format("<tr><td>{}</td>", escapeHtml(shot.label)) + cell("PSNR", psnrText(shot.psnr)) +
+                cell("rel. error", percent(shot.relativeError)) +
+                cell("frame", formatNumber(shot.milliseconds) + " ms") + cell("cost ratio", ratio(e, shot)) + "</tr>\n";
+    if (e.directMilliseconds) html += timeRow("evaluated directly: " + e.directLabel, *e.directMilliseconds);
+    html += timeRow("the mesh without light", e.geometryMilliseconds);
     return html + "</tbody></table>\n";
 }
 
@@ -88,19 +103,33 @@ std::string assetFacts(const AssetFacts& a) {
            fact("baked in", formatNumber(a.bakeSeconds) + " s") + "</dl>\n";
 }
 
+std::string referenceFigure(const Entry& e) {
+    return figure(e.reference, e.title + ": reference", "reference: ray traced, unfactored");
+}
+
+std::string differenceFigure(const Entry& e, const Shot& shot) {
+    return figure(shot.difference, e.title + ", " + shot.label + ": difference",
+                  fmt::format("difference; {}, {}", psnrText(shot.psnr), percent(shot.relativeError)),
+                  scaleBar(e.differenceScale));
+}
+
+std::string triple(const Entry& e, const Shot& shot) {
+    return figure(shot.picture, e.title, escapeHtml(shot.label)) + referenceFigure(e) + differenceFigure(e, shot);
+}
+
+/// Several shots of one reference: each picture stands above its difference.
+std::string pairs(const Entry& e) {
+    std::string html = referenceFigure(e);
+    for (const Shot& shot : e.shots)
+        html += "<div class=\"pair\">" + figure(shot.picture, e.title + ", " + shot.label, escapeHtml(shot.label)) +
+                differenceFigure(e, shot) + "</div>\n";
+    return html;
+}
+
 std::string article(const Entry& e) {
     std::string html = fmt::format("<article id=\"{}\"><h3>{}</h3><p>{}</p>\n<div class=\"shots\">\n", e.id,
                                    escapeHtml(e.title), escapeHtml(e.caption));
-    const bool several = e.shots.size() > 1;
-    if (several) html += figure(e.reference, e.title + ": reference", "reference: ray traced, unfactored");
-    for (const Shot& shot : e.shots) {
-        html += figure(shot.picture, e.title + ", " + shot.label, escapeHtml(shot.label));
-        if (!several) html += figure(e.reference, e.title + ": reference", "reference: ray traced, unfactored");
-        html += figure(shot.difference, e.title + ", " + shot.label + ": difference",
-                       (several ? escapeHtml(shot.label) + ": d" : "d") +
-                           fmt::format("ifference; {}, {}", psnrText(shot.psnr), percent(shot.relativeError)),
-                       scaleBar(e.differenceScale));
-    }
+    html += e.shots.size() > 1 ? pairs(e) : triple(e, e.shots.front());
     html += "</div>\n" + shotTable(e);
     if (!e.directMilliseconds && !e.directLabel.empty())
         html += "<p class=\"note\">" + escapeHtml(e.directLabel) + "</p>\n";
@@ -115,11 +144,14 @@ std::string introduction(const Gallery& gallery) {
         "textures (<em>factored</em>), which a shader looks up for each pixel and light. Beside every picture stand "
         "its reference, ray traced with the unfactored reflectance, same lights and camera; the difference of the "
         "two; and the cost of the lookup against that of evaluating the model in the same shader, measured in the "
-        "same run.</p>\n<p>Differences are |picture − reference| of linear radiance as exposed, the mean over red, "
-        "green and blue, where 1 is white. The PSNR is that of the pictures as shown (sRGB, clipped at white, "
-        "background left out); E<sub>L2</sub> is the relative error of the reflectance itself over all directions up "
-        "to 80°, read back through the stored format and the texture filter. <code>reference/brdf_metrics.hpp</code> "
-        "and <code>reference/image_compare.hpp</code> define these numbers.</p>\n";
+        "same run.</p>\n<p>All pictures of an entry have the reference's exposure. A difference is that of the values "
+        "shown (sRGB, 0 to 1), the largest of the three channels, as a colour; the PSNR is of the same values; the "
+        "relative error is √Σ(picture − reference)² ÷ √Σ reference² of linear radiance. Pixels at the outline are left "
+        "out. The cost ratio is the time of evaluating the model directly over that of the lookups, both less the time "
+        "of the same frame without light. E<sub>L2</sub> is the relative error of the reflectance itself over all "
+        "directions up to 80°, read back "
+        "from the file through the stored format and the texture filter. <code>reference/brdf_metrics.hpp</code> and "
+        "<code>reference/image_compare.hpp</code> define these numbers.</p>\n";
     html += fmt::format("<p class=\"soft\">nacre {}; {}; {}; made in {} s{}</p>\n", escapeHtml(gallery.version),
                         escapeHtml(gallery.renderer), escapeHtml(gallery.machine), formatNumber(gallery.seconds),
                         gallery.quick ? "; <strong>quick run: small pictures, few samples</strong>" : "");
@@ -135,7 +167,7 @@ std::string galleryPage(const Gallery& gallery) {
         "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
         "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n<title>nacre: gallery</title>\n"
         "<link rel=\"icon\" href=\"data:,\">\n<style>";
-    html += std::string(kPageStyle) + ".scale { background: " + falseColorGradient() + "; }\n</style>\n</head>\n";
+    html += std::string(kPageStyle) + ".scale { background: " + differenceGradient() + "; }\n</style>\n</head>\n";
     html += "<body>\n<main>\n" + introduction(gallery) + "<h2>Summary</h2>\n" + summaryTable(gallery);
     std::string section;
     for (const Entry& entry : gallery.entries) {

@@ -28,11 +28,10 @@ void checkPicture(const Entry& entry, const Picture& picture) {
 nlohmann::json shotJson(const Entry& e, const Shot& shot) {
     checkPicture(e, shot.picture);
     checkPicture(e, shot.difference);
-    require(!std::isnan(shot.psnr) && shot.psnr > -1e9, "gallery entry " + e.id + ": psnr is no number");
     return {{"label", shot.label},
             {"picture", shot.picture.file},
             {"difference", shot.difference.file},
-            {"psnr_db", std::isfinite(shot.psnr) ? nlohmann::json(shot.psnr) : nlohmann::json("identical")},
+            {"psnr_db", finite(e, "psnr", shot.psnr)},
             {"relative_error", finite(e, "relativeError", shot.relativeError)},
             {"milliseconds", finite(e, "milliseconds", shot.milliseconds)}};
 }
@@ -68,6 +67,7 @@ nlohmann::json entryJson(const Entry& e) {
             {"reference", e.reference.file},
             {"shots", shots},
             {"difference_scale", finite(e, "differenceScale", e.differenceScale)},
+            {"geometry_milliseconds", finite(e, "geometryMilliseconds", e.geometryMilliseconds)},
             {"direct_milliseconds", e.directMilliseconds
                                         ? nlohmann::json(finite(e, "directMilliseconds", *e.directMilliseconds))
                                         : nlohmann::json()},
@@ -138,6 +138,12 @@ std::string formatBytes(std::size_t bytes) {
     if (bytes < 1024) return fmt::format("{} B", bytes);
     if (bytes < 1024 * 1024) return formatNumber(size / 1024) + " KiB";
     return formatNumber(size / 1024 / 1024) + " MiB";
+}
+
+std::string costRatio(double factoredMs, double directMs, double geometryMs) {
+    const double factored = factoredMs - geometryMs, direct = directMs - geometryMs;
+    const double least = 0.02 * geometryMs;  // differences of medians below that are noise
+    return factored <= least || direct <= least ? "–" : formatNumber(direct / factored, 2) + "×";
 }
 
 }  // namespace nacre
