@@ -16,7 +16,7 @@ constexpr const char* kFiles = "Measured materials: files on this machine";
 /// Refractive index and extinction near 610, 550 and 465 nm, after Johnson & Christy 1972.
 constexpr const char* kCopper = "f=conductor,eta=0.27/0.95/1.17,k=3.4/2.58/2.4";
 /// Ridges across the tangent: what faces -x (the handle's side) is blue, what faces +x red.
-constexpr const char* kRidges = "micro:ridges,slope=0.4,left=0.08/0.15/0.75,right=0.8/0.1/0.06";
+constexpr const char* kRidges = "micro:ridges,slope=0.8,left=0.02/0.05/0.8,right=0.8/0.03/0.02";
 constexpr const char* kSilver = "f=conductor,eta=0.06/0.06/0.05,k=4.1/3.6/2.9";
 
 Recipe torus(const char* id, const char* alpha, const char* method, int size, const char* title, const char* caption) {
@@ -92,6 +92,7 @@ std::vector<Recipe> figure4() {
         r.stage = r.id;
         r.bake.source = kRidges;
         r.bake.method = "homomorphic";
+        r.white = 0.6;
         list.push_back(r);
     }
     return list;

@@ -114,7 +114,7 @@ Stage teapotStage(double azimuthDeg) {
     stage.mesh = makeTeapot(16);
     move(stage.mesh, glm::translate(glm::mat4(1), {-0.2f, -1.5f, 0}));
     combTangents(stage.mesh, {1, 0, 0});
-    stage.camera = perspective(azimuthDeg, 22, 14, 0.31);
+    stage.camera = perspective(azimuthDeg, 22, 14, 0.35);
     stage.aspect = 1.4;
     stage.camera.near = 5;
     stage.camera.far = 25;
@@ -150,8 +150,8 @@ Stage openStage(const std::string& name, const std::filesystem::path& meshFolder
     if (name == "torus") return torusStage();
     if (name == "disk-sphere-circular") return diskAndSphereStage(GrooveDirection::Circular);
     if (name == "disk-sphere-radial") return diskAndSphereStage(GrooveDirection::Radial);
-    if (name == "teapot-left") return teapotStage(-35);
-    if (name == "teapot-right") return teapotStage(35);
+    if (name == "teapot-left") return teapotStage(-55);
+    if (name == "teapot-right") return teapotStage(55);
     require(name.rfind("scan:", 0) == 0,
             fmt::format("unknown stage '{}'; known: torus, disk-sphere-circular, disk-sphere-radial, teapot-left, "
                         "teapot-right, and scan: with {}",
