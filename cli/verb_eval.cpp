@@ -12,6 +12,7 @@
 #include "cli/terminal.hpp"
 #include "cli/truth.hpp"
 #include "cli/verb.hpp"
+#include "core/asset.hpp"
 #include "core/error.hpp"
 #include "core/parallel.hpp"
 #include "factorize/factored_brdf.hpp"

@@ -13,6 +13,7 @@
 #include "cli/terminal.hpp"
 #include "cli/truth.hpp"
 #include "cli/verb.hpp"
+#include "core/asset.hpp"
 #include "core/error.hpp"
 #include "factorize/factorize.hpp"
 #include "reference/brdf_metrics.hpp"

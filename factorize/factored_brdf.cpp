@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "core/asset.hpp"
 #include "core/error.hpp"
 
 namespace nacre {

@@ -6,10 +6,12 @@
 #include <string>
 #include <vector>
 
-#include "core/asset.hpp"
 #include "core/math.hpp"
+#include "core/texture.hpp"
 
 namespace nacre {
+
+struct Asset;  // core/asset.hpp
 
 /// The lookup formulas. Each has one GLSL function of the same name, and one section in factorize/README.md.
 enum class FactoredForm {

@@ -14,18 +14,18 @@
 namespace nacre {
 
 struct FactorizeOptions {
-    std::string method = "auto";  ///< a name from factorizeMethods(), or auto
-    int size = 0;                 ///< edge of the largest texture [texels], 2..4096; 0 = the method's own choice
-    int terms = 0;                ///< SVD terms 1..2, harmonics of the fit 1..3, …; 0 = the method's own choice
-    std::string parametrization;  ///< svd only: half_diff (default) or in_out
+    std::string method = "auto";    ///< a name from factorizeMethods(), or auto
+    int size = 0;                   ///< edge of the largest texture [texels], 2..4096; 0 = the method's own choice
+    int terms = 0;                  ///< SVD terms 1..2, harmonics of the fit 1..3, …; 0 = the method's own choice
+    std::string parametrization{};  ///< svd only: half_diff (default) or in_out
     TexelFormat format = TexelFormat::Half;
-    std::optional<double> maxError;       ///< bound on `measure`
-    std::optional<std::size_t> maxBytes;  ///< of all textures
-    std::optional<int> maxFetches;
+    std::optional<double> maxError{};       ///< bound on `measure`
+    std::optional<std::size_t> maxBytes{};  ///< of all textures
+    std::optional<int> maxFetches{};
     unsigned threads = 0;
-    Progress progress;
+    Progress progress{};
     /// The error the budget speaks of (l2_rel against the truth). Needed when maxError is set.
-    std::function<double(const FactoredBrdf&)> measure;
+    std::function<double(const FactoredBrdf&)> measure{};
 };
 
 struct FactorizeMethod {

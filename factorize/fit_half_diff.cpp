@@ -102,7 +102,7 @@ struct Start {
 
 /// A coarse fit with the slope s in the middle of the u axis.
 Start tryMiddle(const Bake& bake, double s) {
-    const std::vector<FitSample> samples = bake.samples(40000, s);
+    const std::vector<FitSample> samples = bake.samples(24000, s);
     Start start{s, 0, {}, colorBasis(samples)};
     start.model = makeModel(bake.layout, start.basis);
     setLookups(start.model, bake.layout, static_cast<float>(s));
@@ -127,6 +127,12 @@ Start findMiddle(const Bake& bake) {
     return best;
 }
 
+/// Samples of the last fit: some forty a texel, about a third of which fall below the horizon.
+std::size_t sampleCount(const TextureSizes& sizes) {
+    const int texels = sizes.first.x * sizes.first.y + sizes.second.x * sizes.second.y;
+    return std::clamp<std::size_t>(40 * static_cast<std::size_t>(texels), 72000, 320000);
+}
+
 }  // namespace
 
 FactoredBrdf factorizeFit(const Reflectance& r, HalfDiffLayout layout, const TextureSizes& sizes,
@@ -138,11 +144,12 @@ FactoredBrdf factorizeFit(const Reflectance& r, HalfDiffLayout layout, const Tex
 
     report(options.progress, "fitting half size", 0.3);
     resizeTables(model, sizes, 2);
-    fitLogTables(model, bake.samples(80000, best.s),
+    const std::size_t full = sampleCount(sizes);
+    fitLogTables(model, bake.samples(full / 3, best.s),
                  {.newtonSteps = 6, .conjugateSteps = 25, .threads = options.threads});
     report(options.progress, "fitting full size", 0.5);
     resizeTables(model, sizes, 1);
-    fitLogTables(model, bake.samples(320000, best.s),
+    fitLogTables(model, bake.samples(full, best.s),
                  {.newtonSteps = 4, .conjugateSteps = 25, .threads = options.threads});
     report(options.progress, "fitted", 1);
 
