@@ -158,16 +158,26 @@ Plan choosePlan(const Reflectance& r, Plan plan, const std::vector<FitSample>& s
     return fetchesAllowed && best.loss > kGoodEnough && best.loss > 4 * bestWithP.loss ? bestWithP.plan : best.plan;
 }
 
+/// Tabulated input: the slope map's width by coarse fits.
+Plan chooseWidth(const Reflectance& r, Plan plan, const FactorizeOptions& options) {
+    plan.elevations = plan.color = true;
+    plan.arithmetic.polynomial[0] = glm::vec3(1);
+    Fitted best;
+    for (const double width : {std::clamp(lobeHalfWidth(r.f), 0.02, 1.0), 0.15, 0.4, 1.0}) {
+        plan.width = glm::dvec2(width);
+        const FitSampleOptions sampling{40000, plan.width, false, 1.5, options.threads};
+        Fitted tried = fitPlan(r, plan, {{24, 24}, {24, 24}}, fitSamples(r.f, sampling),
+                               {.newtonSteps = 4, .conjugateSteps = 15, .threads = options.threads});
+        if (tried.loss < best.loss) best = std::move(tried);
+        report(options.progress, "choosing coordinates", 0.2);
+    }
+    return best.plan;
+}
+
 Plan makePlan(const Reflectance& r, const FactorizeOptions& options) {
     Plan plan;
     plan.quadrant = isQuadrantSymmetric(r.f);
-    if (!r.microfacet) {
-        const double width = std::clamp(lobeHalfWidth(r.f), 0.05, 0.7);
-        plan.width = glm::dvec2(width);
-        plan.elevations = plan.color = true;
-        plan.arithmetic.polynomial[0] = glm::vec3(1);
-        return plan;
-    }
+    if (!r.microfacet) return chooseWidth(r, plan, options);
     plan.width = glm::dvec2(std::clamp(r.microfacet->alphaX, 1e-4, 2.0), std::clamp(r.microfacet->alphaY, 1e-4, 2.0));
     FitSampleOptions sampling{40000, plan.width, false, 1.5, options.threads};
     return choosePlan(r, plan, fitSamples(r.f, sampling), options);
@@ -191,9 +201,12 @@ FactoredBrdf factorizeHomomorphic(const Reflectance& r, const TextureSizes& size
     const Plan plan = makePlan(r, options);
     report(options.progress, "fitting", 0.4);
     FitSampleOptions sampling{400000, plan.width, false, 1.55, options.threads};
-    const Fitted fitted = fitPlan(
-        r, plan, sizes, fitSamples(r.f, sampling),
-        {.newtonSteps = 5, .conjugateSteps = 25, .smoothness = 1e-5f, .anchored = true, .threads = options.threads});
+    const Fitted fitted = fitPlan(r, plan, sizes, fitSamples(r.f, sampling),
+                                  {.newtonSteps = r.microfacet ? 5 : 10,
+                                   .conjugateSteps = 25,
+                                   .smoothness = 1e-5f,
+                                   .anchored = r.microfacet.has_value(),
+                                   .threads = options.threads});
     report(options.progress, "fitted", 1);
 
     FactoredBrdf out;
