@@ -63,7 +63,7 @@ std::vector<Candidate> ladder(const std::string& method) {
 Candidate usual(const std::string& method, const Reflectance& r) {
     Candidate c{method, square(64, 64)};
     if (method == "svd") c.sizes = square(32, 32);
-    if (method == "homomorphic") c.sizes = r.microfacet ? square(64, 32) : square(64, 64);
+    if (method == "homomorphic") c.sizes = r.microfacet ? square(64, 32) : square(48, 48);
     if (method == "single-lobe") c.sizes = square(256, 2);
     if (method == "tangent") c.sizes = square(128, 128);
     if (method == "analytic" && r.microfacet && r.microfacet->alphaX < 0.03) c.sizes = square(128, 128);

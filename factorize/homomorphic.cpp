@@ -204,7 +204,7 @@ FactoredBrdf factorizeHomomorphic(const Reflectance& r, const TextureSizes& size
     const Fitted fitted = fitPlan(r, plan, sizes, fitSamples(r.f, sampling),
                                   {.newtonSteps = r.microfacet ? 5 : 10,
                                    .conjugateSteps = 25,
-                                   .smoothness = 1e-5f,
+                                   .smoothness = r.microfacet ? 1e-5f : 1e-3f,
                                    .anchored = r.microfacet.has_value(),
                                    .threads = options.threads});
     report(options.progress, "fitted", 1);
