@@ -15,7 +15,7 @@ class Context {
 public:
     /// The new context is current on the calling thread.
     /// \throws nacre::Error that lists what was tried and each EGL error
-    explicit Context(GlApi api = GlApi::Core45);
+    explicit Context(GlApi api = GlApi::Core33);
     ~Context();
     Context(Context&& other) noexcept;
     Context& operator=(Context&& other) noexcept;

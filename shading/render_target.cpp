@@ -3,6 +3,7 @@
 #include <epoxy/gl.h>
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <vector>
 
 #include "core/error.hpp"
@@ -35,6 +36,11 @@ void checkComplete(const RenderTargetOptions& options) {
 RenderTarget::RenderTarget(const RenderTargetOptions& options) : options_(options) {
     require(options.width >= 1 && options.height >= 1 && options.samples >= 1,
             "RenderTarget: width, height and samples must be >= 1");
+    GLint most = 1;
+    glGetIntegerv(GL_MAX_SAMPLES, &most);
+    if (options.samples > std::max(most, 1))
+        throw Error(
+            fmt::format("render target: expected at most the driver's {} samples, found {}", most, options.samples));
     const GLenum format = options.color == ColorFormat::Rgba16F ? GL_RGBA16F : GL_RGBA32F;
     glBindFramebuffer(GL_FRAMEBUFFER, framebuffer_.name());
     attach(color_.name(), GL_COLOR_ATTACHMENT0, format, options, options.samples);

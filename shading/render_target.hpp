@@ -22,7 +22,8 @@ struct RenderTargetOptions {
 class RenderTarget {
 public:
     /// Leaves the default framebuffer bound.
-    /// \throws nacre::Error with the status when the driver finds the framebuffer incomplete
+    /// \throws nacre::Error when the driver has fewer samples or refuses the size, or with the status when it finds the
+    ///         framebuffer incomplete
     explicit RenderTarget(const RenderTargetOptions& options);
 
     int width() const { return options_.width; }

@@ -72,6 +72,7 @@ TEST(RenderTarget, RejectsBadSizes) {
     test::context();
     EXPECT_THROW(RenderTarget({.width = 0}), std::invalid_argument);
     EXPECT_THROW(RenderTarget({.width = 1 << 20, .height = 1 << 20}), Error);
+    EXPECT_THROW(RenderTarget({.width = 4, .height = 4, .samples = 4096}), Error);
 }
 
 // The largest and smallest half floats, and every 8-bit code, arrive as they are.

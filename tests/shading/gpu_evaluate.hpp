@@ -13,7 +13,7 @@
 namespace nacre::test {
 
 /// One context for the test program. Fails (throws nacre::Error) where none can be made: a GPU test never skips.
-const Context& context(GlApi api = GlApi::Core45);
+const Context& context(GlApi api = GlApi::Core33);
 
 struct GpuFunction {
     std::string code;  ///< GLSL that ends up defining vec4 evaluate(vec3 wi, vec3 wo); may #include

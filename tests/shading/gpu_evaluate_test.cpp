@@ -9,7 +9,7 @@ namespace {
 TEST(GpuEvaluate, PassesDirectionsThrough) {
     const std::vector<DirectionPair> pairs = test::testPairs(1000);
     for (const auto& [api, dialect] :
-         {std::pair{GlApi::Core45, Glsl::V330}, {GlApi::Core45, Glsl::V450}, {GlApi::Es3, Glsl::Es300}}) {
+         {std::pair{GlApi::Core33, Glsl::V330}, {GlApi::Core45, Glsl::V450}, {GlApi::Es3, Glsl::Es300}}) {
         test::context(api);
         const auto values = test::gpuEvaluate(
             {.code = "vec4 evaluate(vec3 wi, vec3 wo) { return vec4(wi, wo.x); }\n", .dialect = dialect}, pairs);

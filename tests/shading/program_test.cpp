@@ -52,7 +52,7 @@ TEST_F(ShaderSourceTest, CompileErrorNamesFileAndLine) {
     write("broken.glsl", "#ifndef BROKEN\n#define BROKEN\n\nfloat broken() { return undeclared; }\n#endif\n");
     write("vertex.glsl", "void main() { gl_Position = vec4(0.0); }\n");
     for (const auto& [api, dialect] :
-         {std::pair{GlApi::Core45, Glsl::V330}, {GlApi::Core45, Glsl::V450}, {GlApi::Es3, Glsl::Es300}}) {
+         {std::pair{GlApi::Core33, Glsl::V330}, {GlApi::Core45, Glsl::V450}, {GlApi::Es3, Glsl::Es300}}) {
         test::context(api);
         const ProgramLoader loader(dialect, {folder_});
         const auto log = [&](const std::string& text) {

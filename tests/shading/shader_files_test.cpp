@@ -31,7 +31,7 @@ bool startsWith(const std::string& text, const std::string& start) { return text
 std::string textOf(const std::string& file) { return readShader({shaderFolder()}, file).text; }
 
 const std::pair<GlApi, Glsl> kDialects[] = {
-    {GlApi::Core45, Glsl::V330}, {GlApi::Core45, Glsl::V450}, {GlApi::Es3, Glsl::Es300}};
+    {GlApi::Core33, Glsl::V330}, {GlApi::Core45, Glsl::V450}, {GlApi::Es3, Glsl::Es300}};
 
 /// The #defines under which a file of nacre/bind is compiled: each choice it knows.
 std::vector<ShaderDefines> factoredChoices() {
