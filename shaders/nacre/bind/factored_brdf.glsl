@@ -12,6 +12,10 @@
 #define NACRE_FORM_HOMOMORPHIC 4
 #define NACRE_FORM_SEPARABLE 5
 
+#ifndef NACRE_FORM
+#error "define NACRE_FORM, for instance as NACRE_FORM_HALF_DIFF"
+#endif
+
 uniform sampler2D nacre_brdf_tex0;
 uniform sampler2D nacre_brdf_tex1;
 uniform sampler2D nacre_brdf_tex2;
