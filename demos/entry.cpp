@@ -175,9 +175,10 @@ void addTimes(Entry& entry, const Scene& scene) {
             renderFactored(scene.loader, target, scene.mesh, scene.view, scene.factored, addressing);
         });
     const LitView unlit{scene.view.camera, {}, Rgb(0)};
+    const GpuDirectBrdf lambert = *directBrdf(openReflectance("lambert"));
     frames.push_back([&] {
         target.clear();
-        renderFactored(scene.loader, target, scene.mesh, unlit, scene.factored);
+        renderDirect(scene.loader, target, scene.mesh, unlit, lambert);
     });
     if (scene.direct)
         frames.push_back([&] {

@@ -15,7 +15,7 @@ void main() {
     mat3 frame = nacre_frame(v_normal, v_tangent);
     vec3 wo = nacre_to_local(frame, nacre_direction_to(nacre_eye, v_position));
     vec3 sum = nacre_ambient;
-    for (int i = 0; i < nacre_light_count; ++i) {
+    for (int i = 0; i < NACRE_LIGHT_COUNT; ++i) {
         vec4 light = nacre_light_position[i];
         vec3 wi = nacre_to_local(frame, nacre_direction_to(light, v_position));
         if (wi.z <= 0.0 || wo.z <= 0.0) continue;

@@ -18,7 +18,7 @@ void main() {
     for (int i = 0; i < 4; ++i) {
         vec4 light = nacre_light_position[i];
         v_light[i] = vec4(0.0);
-        if (i < nacre_light_count)
+        if (i < NACRE_LIGHT_COUNT)
             v_light[i] = vec4(nacre_to_local(frame, nacre_direction_to(light, position)),
                               nacre_light_falloff(light, position));
     }

@@ -39,6 +39,12 @@ void checkLights(const LitView& view, Addressing addressing) {
                 "lit pass: the direction to a directional light must have unit length");
 }
 
+/// One program for each number of lights: see bind/lights.glsl.
+ShaderDefines withLights(ShaderDefines defines, const LitView& view) {
+    defines.emplace_back("NACRE_LIGHTS", std::to_string(view.lights.size()));
+    return defines;
+}
+
 Vec3 orthographicDirection(const Camera& camera) { return glm::normalize(camera.eye - camera.target); }
 
 void setView(const Program& program, const LitView& view, const RenderTarget& target) {
@@ -89,7 +95,7 @@ void renderFactored(ProgramLoader& loader, const RenderTarget& target, const Gpu
                     const GpuFactoredBrdf& brdf, Addressing addressing) {
     checkLights(view, addressing);
     const bool matrices = addressing == Addressing::TextureMatrix;
-    ShaderDefines defines = brdf.defines();
+    ShaderDefines defines = withLights(brdf.defines(), view);
     if (matrices) {
         require(hasForm(brdf, "COSINE") || hasForm(brdf, "TANGENT"),
                 "texture matrices address the forms cosine and tangent only");
@@ -111,7 +117,7 @@ void renderDirect(ProgramLoader& loader, const RenderTarget& target, const GpuMe
     require(addressing != Addressing::TextureMatrix, "texture matrices address textures, not formulas");
     checkLights(view, addressing);
     const Stages files = stages(addressing);
-    const Program& program = loader.load(files.vertex, files.fragment, brdf.defines());
+    const Program& program = loader.load(files.vertex, files.fragment, withLights(brdf.defines(), view));
     brdf.bind(program);
     setView(program, view, target);
     setLights(program, view);
