@@ -15,9 +15,9 @@ inline constexpr const char* kMicroPrefix = "micro:";
 std::vector<ModelInfo> listMicro();
 
 /// \param text  `micro:`, a relief's name, then comma-separated key=value
-/// Simulates (0.2 to 2 s of one core) and answers from the table: linear between 24² directions a side, held beyond 87°.
-/// Measured for the default ridges, against finer settings: facets 0.6 %, table 1.3 % (root mean square).
-/// \throws std::invalid_argument for unknown reliefs, parameters, or values out of range; lists the known ones
+/// Simulates (0.2 to 2 s of one core) and answers from the table: linear between 24² directions a side, held beyond
+/// 87°. Measured for the default ridges, against finer settings: facets 0.6 %, table 1.3 % (root mean square). \throws
+/// std::invalid_argument for unknown reliefs, parameters, or values out of range; lists the known ones
 Reflectance openMicro(const std::string& text, unsigned threads = 0);
 
 }  // namespace nacre
