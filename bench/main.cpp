@@ -70,7 +70,7 @@ bool isMeasured(const std::vector<Measurement>& list, const Material& material, 
 void sweep(const Material& material, bool quick, GpuLab* lab, const Progress& progress, std::vector<Measurement>& out) {
     const OpenMaterial opened = open(material);
     const std::size_t first = out.size();
-    for (const Setting& setting : sweepSettings(quick)) {
+    for (const Setting& setting : sweepSettings(quick, opened.reflectance.isotropic)) {
         if (isMeasured(out, material, setting)) continue;
         report(progress, material.name + ": " + text(setting), 0);
         std::optional<Baked> baked;

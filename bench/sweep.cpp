@@ -27,9 +27,12 @@ static std::vector<int> sizesOf(const std::string& method) {
     return {64, 16, 32, 128};
 }
 
-static void addQuick(const std::string& method, std::vector<Setting>& out) {
+/// The dear fits at one size; the bars add what `auto` chooses.
+static void addQuick(const std::string& method, bool isotropic, std::vector<Setting>& out) {
+    if (method == "homomorphic" && isotropic) return;
+    if (method == "fit") return out.push_back({method, 32, 1});
     out.push_back({method, sizesOf(method).front()});
-    if (method == "analytic" || method == "fit") out.push_back({method, 32, method == "fit" ? 1 : 0});
+    if (method == "analytic") out.push_back({method, 32});
     if (method == "cosine") out.push_back({method, 64, 0, TexelFormat::Unorm8});
 }
 
@@ -43,10 +46,10 @@ static void addAll(const std::string& method, std::vector<Setting>& out) {
     if (method == "svd") out.push_back({.method = "svd", .size = 32, .parametrization = "in_out"});
 }
 
-std::vector<Setting> sweepSettings(bool quick) {
+std::vector<Setting> sweepSettings(bool quick, bool isotropic) {
     std::vector<Setting> out;
     for (const FactorizeMethod& method : factorizeMethods())
-        quick ? addQuick(method.name, out) : addAll(method.name, out);
+        quick ? addQuick(method.name, isotropic, out) : addAll(method.name, out);
     return out;
 }
 

@@ -23,8 +23,8 @@ struct Setting {
 std::string text(const Setting& setting);
 
 /// Every method with its knobs, for any input: a method refuses inputs it doesn't fit.
-/// `auto` is left to the bars, which bake it within their budgets. \param quick  the usual sizes alone
-std::vector<Setting> sweepSettings(bool quick);
+/// `auto` is left to the bars, which bake it within their budgets. \param quick  few sizes
+std::vector<Setting> sweepSettings(bool quick, bool isotropic);
 
 /// HSE section 1.1 as published: two textures, linear in the cosines, in the fixed-point format of its hardware.
 bool isPapersSetting(const Setting& setting);
