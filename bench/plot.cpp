@@ -14,7 +14,7 @@ namespace {
 constexpr double kWidth = 640, kHeight = 430, kLeft = 66, kRight = 14, kTop = 34, kBottom = 48, kLegendRow = 17;
 // Eight hues that stay apart for colour-blind readers (Okabe & Ito 2008; black replaced by grey).
 constexpr std::array<const char*, 8> kColors = {"#0072b2", "#d55e00", "#009e73", "#cc79a7",
-                                                "#e69f00", "#56b4e9", "#8c8c8c", "#b8a800"};
+                                                "#e69f00", "#56b4e9", "#8c8c8c", "#6a3d9a"};
 
 const char* colorOf(const PlotSeries& series) { return kColors[series.color % kColors.size()]; }
 
