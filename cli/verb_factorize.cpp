@@ -50,15 +50,15 @@ struct ProvisionalFile {
 
 }  // namespace
 
-static json orNull(double value) { return std::isnan(value) ? json(nullptr) : json(value); }
+static json orNull(double value) { return std::isfinite(value) ? json(value) : json(nullptr); }
 
 static json errorJson(const BrdfError& e, double reciprocityResidual) {
-    return {{"l2_rel", e.l2Rel},
-            {"log_rms", e.logRms},
-            {"max_rel", e.maxRel},
-            {"grazing_l2_rel", e.grazingL2Rel},
-            {"sphere_psnr", e.spherePsnr},
-            {"albedo_max_abs", e.albedoMaxAbs},
+    return {{"l2_rel", orNull(e.l2Rel)},
+            {"log_rms", orNull(e.logRms)},
+            {"max_rel", orNull(e.maxRel)},
+            {"grazing_l2_rel", orNull(e.grazingL2Rel)},
+            {"sphere_psnr", orNull(e.spherePsnr)},
+            {"albedo_max_abs", orNull(e.albedoMaxAbs)},
             {"reciprocity_residual", orNull(reciprocityResidual)},
             {"samples", e.samples},
             {"negative", e.negative},
@@ -78,11 +78,15 @@ static BrdfFunction functionOf(const FactoredBrdf& brdf) {
 }
 
 /// Fails before the bake when nothing can be written there.
-static void requireWritable(const std::string& output, const fs::path& provisional) {
+static void requireWritable(const std::string& source, const std::string& output, const fs::path& provisional) {
+    require(!output.empty(), "-o: expected a file name, found none");
     std::error_code failure;
+    require(!fs::equivalent(source, output, failure),
+            fmt::format("{}: expected an output other than the source, which it would replace", output));
     if (fs::exists(output, failure) && !fs::is_regular_file(output, failure))
         throw Error(fmt::format("{}: can't write: expected a file or a free name, found a folder or device", output));
     if (!std::ofstream(provisional)) throw Error(fmt::format("{}: can't write: {}", output, std::strerror(errno)));
+    fs::remove(provisional, failure);  // it comes back for a moment after the bake; nothing is left by a kill before
 }
 
 /// The asset as it comes back from disk: what is measured is what a reader gets.
@@ -136,7 +140,7 @@ static void requireBudget(const Settings& s, const FactoredBrdf& baked) {
 static void runFactorize(const Context& context, Settings& s) {
     const fs::path provisional = s.output + fmt::format(".{}.provisional", ::getpid());
     const ProvisionalFile removeLater{provisional};
-    requireWritable(s.output, provisional);
+    requireWritable(s.source, s.output, provisional);
 
     const Stopwatch baking;
     const Reflectance reflectance = openReflectance(s.source);
@@ -158,13 +162,16 @@ static void runFactorize(const Context& context, Settings& s) {
     const FactoredBrdf readBack = factoredFromAsset(written, provisional.string());
     const BrdfError error = measureBrdf(functionOf(readBack), truth, metric);
     requireBudget(s, baked);
-    if (s.options.maxError && error.l2Rel > *s.options.maxError)
+    if (s.options.maxError && !(error.l2Rel <= *s.options.maxError))
         throw Error(fmt::format("{}: expected l2_rel <= {}, found {:.4g}", s.output, *s.options.maxError, error.l2Rel));
     describe(asset.meta, context, s, reflectance);
     asset.meta["seconds"] = seconds;
     asset.meta["measure_seconds"] = measuring.seconds();
     asset.meta["error"] = errorJson(error, reflectance.reciprocityResidual);
     const json meta = throughFile(asset, s.output).meta;
+    if (!(error.l2Rel < 1) || error.negative > 0)
+        tell(fmt::format("{}: a poor fit: l2_rel {:.3g} (black scores 1), {} of {} samples negative", s.output,
+                         error.l2Rel, error.negative, error.samples));
     putData(s.asJson ? meta.dump(2) + "\n" : summaryText(s.output, meta));
 }
 

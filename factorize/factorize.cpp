@@ -185,7 +185,13 @@ FactoredBrdf factorize(const Reflectance& r, const FactorizeOptions& options) {
     checkOptions(options);
     const std::vector<std::string> methods =
         options.method == "auto" ? suitable(r) : std::vector<std::string>{options.method};
-    if (options.size != 0) return bake(r, ofSize(methods.front(), options), options);
+    if (options.size != 0) {
+        const Candidate c = ofSize(methods.front(), options);
+        if (options.maxBytes && bytesOf(c, options) > *options.maxBytes)
+            throw Error(fmt::format("{}: expected at most {} bytes, found {} or more for size {}", r.source,
+                                    *options.maxBytes, bytesOf(c, options), options.size));
+        return bake(r, c, options);
+    }
     const bool budget = options.maxError || options.maxBytes || options.maxFetches;
     if (budget) return withinBudget(r, methods, options);
     Candidate c = usual(methods.front(), r);

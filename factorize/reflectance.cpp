@@ -54,7 +54,9 @@ static bool looksLikePath(const std::string& source) {
 }
 
 static Reflectance openFile(const std::string& source) {
-    if (!fs::is_regular_file(source)) throw Error(fmt::format("{}: expected a file, found none", source));
+    if (!fs::is_regular_file(source))
+        throw Error(
+            fmt::format("{}: expected a file, found {}", source, fs::exists(source) ? "a folder or device" : "none"));
     if (const FileKind* kind = kindBySuffix(source)) return kind->open(source);
     if (const FileKind* kind = kindByContent(source)) return kind->open(source);
     throw Error(

@@ -35,10 +35,12 @@ void directionsOf(const Layout& layout, const glm::dvec2& x, const glm::dvec2& y
     wo = 2 * glm::dot(wi, h) * h - wi;
 }
 
-/// Pairs below the horizon take the value of their directions lifted to it: the tables stay smooth where nobody looks.
+constexpr double kLowest = 0.17;  // cos 80°: grazing values grow without bound and would be all the SVD looks at
+
+/// Pairs below 80° take the value of their directions lifted to it: the tables stay smooth where nobody looks.
 Rgb valueAt(const Reflectance& r, Vec3 wi, Vec3 wo) {
     const auto lift = [](Vec3& w) {
-        if (w.z < 0.02) w = glm::normalize(Vec3(w.x, w.y, 0.02));
+        if (w.z < kLowest) w = glm::normalize(Vec3(w.x, w.y, kLowest));
     };
     lift(wi);
     lift(wo);

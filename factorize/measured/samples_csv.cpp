@@ -100,12 +100,14 @@ static DirectionPair directionsOf(const Line& line, Columns columns, const std::
             checkedDirection(line, sphericalDirection(n[2] * unit, n[3] * unit))};
 }
 
+constexpr double kLargest = 1e18;  // its square is still a single-precision number; no BRDF comes near
+
 static void addSample(const Line& line, Columns columns, ParsedSamples& out) {
     const std::vector<double> numbers = parseNumbers(line, columns == Columns::Vectors ? 9 : 7);
     const DirectionPair pair = directionsOf(line, columns, numbers);
     const Rgb f(numbers[numbers.size() - 3], numbers[numbers.size() - 2], numbers[numbers.size() - 1]);
     ++out.data.entries;
-    if (!isFinite(f))
+    if (!isFinite(f) || maxComponent(f) > kLargest)
         ++out.data.nonFinite;
     else if (std::min({f.r, f.g, f.b}) < 0)
         ++out.data.negative;
