@@ -142,13 +142,22 @@ TEST(Merl, SingleSpikeStaysInItsStencil) {
             fromHalfDifference({kPi / 2 * sqr((h + 0.5) / 90), 0.3, kPi / 2 * (d + 0.5) / 90, kPi * (p + 0.5) / 180});
         return evaluate(table, pair.wi, pair.wo).r;
     };
-    EXPECT_NEAR(at(20, 30, 179), 1000, 1e-2);
-    EXPECT_NEAR(at(20.25, 30, 179), 750, 1e-2);  // linear in √thetaH
-    EXPECT_NEAR(at(20, 30.5, 179), 500, 1e-2);
-    EXPECT_NEAR(at(20, 30, 179.5), 500, 1e-2);
-    EXPECT_NEAR(at(20, 30, -0.75), 750, 1e-2);  // across the period
+    // Averaged with its mirror image in azimuth, cell 0, which is its neighbour across the period.
+    EXPECT_NEAR(at(20, 30, 179), 500, 1e-2);
+    EXPECT_NEAR(at(20, 30, 0), 500, 1e-2);
+    EXPECT_NEAR(at(20.25, 30, 179), 375, 1e-2);  // linear in √thetaH
+    EXPECT_NEAR(at(20, 30.5, 179), 250, 1e-2);
+    EXPECT_NEAR(at(20, 30, 178.25), 125, 1e-2);
+    EXPECT_NEAR(at(20, 30, 179.5), 500, 1e-2);  // across the period
     EXPECT_EQ(at(21.01, 30, 179), 0);
-    EXPECT_EQ(at(20, 30, 0.01), 0);
+    EXPECT_EQ(at(20, 30, 1.01), 0);
+}
+
+TEST(Merl, ResidualOfAKnownAsymmetry) {  // 3 and 1 in the halves of φd: √(2·(3−1)²/(3² + 1²)), and 2 is stored
+    const auto halves = [](std::size_t cell) { return Rgb(cell % kMerlPhiD < kMerlPhiD / 2 ? 3.0 : 1.0); };
+    const MerlTable table = parseMerl(merlBytes(halves), "halves");
+    EXPECT_NEAR(table.mirrorResidual, std::sqrt(0.8), 1e-6);
+    EXPECT_NEAR(evaluate(table, {0.6, 0, 0.8}, {0, 0.6, 0.8}).r, 2 * kScale[0], 1e-6);
 }
 
 TEST(Merl, BadFilesAreNamedWithExpectedAndFound) {
@@ -183,7 +192,7 @@ TEST(Merl, OpensAFileFastAndSaysWhatItFound) {
     EXPECT_EQ(reflectance.kind, "merl");
     EXPECT_EQ(reflectance.hash.size(), 16u);
     EXPECT_TRUE(reflectance.isotropic);
-    EXPECT_TRUE(std::isnan(reflectance.reciprocityResidual));
+    EXPECT_NEAR(reflectance.reciprocityResidual, 0, 1e-6) << "mirror-symmetric but for the float's rounding";
     EXPECT_NEAR(reflectance.f({0, 0, 1}, {0, 0, 1}).r, smooth({}), kInterpolation * 2);
     EXPECT_THAT(messageOf<Error>([&] { openMerl(path.string() + "x"); }), HasSubstr("found none"));
 }
