@@ -107,7 +107,7 @@ constexpr Fit kShownFits[] = {
     {"red-fabric", "bunny00", "Red fabric", "Hardly a highlight; light gathers towards grazing angles.", 0.22},
     {"gold-metallic-paint", "ChineseDragon-10kv", "Gold metallic paint", "Flakes: a wide, coloured lobe.", 0},
     {"black-phenolic", "lion-head", "Black phenolic", "Dark and polished: the sharpest lobe here.", 0},
-    {"blue-metallic-paint", "refined_elephant", "Blue metallic paint", "A coloured lobe over a dark ground.", 0.42},
+    {"blue-metallic-paint", "refined_elephant", "Blue metallic paint", "A coloured lobe over a dark ground.", 0.28},
     {"green-latex", "camel", "Green latex", "Nearly matt, with a soft sheen.", 0.16}};
 
 std::vector<Recipe> publishedFits() {
