@@ -2,6 +2,8 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -19,5 +21,8 @@ inline std::vector<std::string> channelNames(int channels) {
     const std::vector<std::string> all = {"R", "G", "B", "A"};
     return {all.begin(), all.begin() + channels};
 }
+
+/// The first attribute of an EXR file's headers whose stated size goes beyond the end of the file. asset_scan.cpp
+std::optional<std::string> attributeBeyondEnd(std::span<const std::uint8_t> bytes);
 
 }  // namespace nacre::exr

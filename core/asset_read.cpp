@@ -244,6 +244,9 @@ static Asset readOpened(const std::string& path, std::size_t fileBytes, Imf::Mul
 }
 
 Asset parseAsset(std::span<const std::uint8_t> bytes, const std::string& name) {
+    if (const auto attribute = exr::attributeBeyondEnd(bytes))
+        fail(name, "", "an OpenEXR file",
+             fmt::format("attribute '{}' larger than the file, or cut short", shortened(*attribute)));
     MemoryIStream stream(bytes);
     std::unique_ptr<Imf::MultiPartInputFile> file;
     try {

@@ -178,6 +178,17 @@ TEST(BrokenAsset, FlippedBytesNeverDoMoreThanThrow) {  // the fuzzer's little si
         }
 }
 
+TEST(BrokenAsset, AttributeLargerThanTheFile) {  // found by fuzzing: OpenEXR made room for it first
+    const Scratch scratch;
+    RawFile().write(scratch / "a.exr");
+    const auto whole = readFile(scratch / "a.exr", 1 << 20);
+    std::string bytes(whole.begin(), whole.end());
+    const std::size_t size = bytes.find(std::string("nacre\0string\0", 13)) + 13;
+    bytes.replace(size, 4, std::string("\x00\x00\x00\x60", 4));
+    std::ofstream(scratch / "a.exr", std::ios::binary) << bytes;
+    EXPECT_THAT(messageOf<Error>([&] { readAsset(scratch / "a.exr"); }), HasSubstr("attribute 'nacre' larger"));
+}
+
 TEST(BrokenAsset, NoExrAtAll) {
     const Scratch scratch;
     writeFile(scratch / "a.exr", "P6 2 2 255 and so on");
