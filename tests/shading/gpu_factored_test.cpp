@@ -163,8 +163,9 @@ std::vector<FactoredCase> cases() {
     baked("cosine_lobe", "cosine-lobe:cx=-0.9,cy=-0.7,cz=0.8,n=20", "single-lobe");
     baked("banks", "banks:n=30,kd=0.1/0.2/0.3", "tangent");
     out.push_back({"cosine_float", [] { return bake("torrance-sparrow:alpha=0.3", "cosine", 0, TexelFormat::Float); }});
-    out.push_back(
-        {"cosine_unorm8", [] { return bake("torrance-sparrow:alpha=0.3,kd=0.2", "cosine", 0, TexelFormat::Unorm8); }});
+    out.push_back({"cosine_unorm8",
+                   [] { return bake("torrance-sparrow:alpha=0.3,kd=0.2", "cosine", 0, TexelFormat::Unorm8); }, false,
+                   5e-2, 5e-2});  // llvmpipe filters 8-bit textures with 256 weights: 3.8e-3 of the range
     return out;
 }
 
