@@ -1,4 +1,4 @@
-// The baked-asset file (DESIGN.md section 4): one multi-part OpenEXR file, one part a texture, and a string attribute
+// The baked-asset file: one multi-part OpenEXR file, one part a texture, and a string attribute
 // `nacre` with JSON in the first part.
 #pragma once
 
