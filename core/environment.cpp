@@ -271,7 +271,9 @@ glm::dvec2 envPosition(EnvLayout layout, int size, const Vec3& direction) {
             const int face = faceOf(d);
             const CubeFace& f = kFaces[face];
             const double m = glm::dot(d, f.major);
-            return {(glm::dot(d, f.right) / m + 1) / 2 * size, ((glm::dot(d, f.down) / m + 1) / 2 + face) * size};
+            // A direction on an edge belongs to its face's last texel, not to the next face's first.
+            const auto place = [&](double c) { return std::min((c / m + 1) / 2, 1 - 1e-12) * size; };
+            return {place(glm::dot(d, f.right)), place(glm::dot(d, f.down)) + face * size};
         }
         case EnvLayout::DualParaboloid: {
             const double scale = 1 / (glm::length(d) + std::abs(d.z));
@@ -305,7 +307,26 @@ double envSolidAngle(EnvLayout layout, int size, int x, int y) {
     return octahedralSolidAngle(size, x, y);
 }
 
+/// One face's solid angles from those of its corner rectangles; all six are alike.
+static std::vector<double> cubeSolidAngles(int size) {
+    const std::size_t edge = size;
+    std::vector<double> corner((edge + 1) * (edge + 1)), out(6 * edge * edge);
+    for (std::size_t j = 0; j <= edge; ++j)
+        for (std::size_t i = 0; i <= edge; ++i)
+            corner[j * (edge + 1) + i] =
+                cubeCorner(2.0 * static_cast<double>(i) / size - 1, 2.0 * static_cast<double>(j) / size - 1);
+    for (std::size_t j = 0; j < edge; ++j)
+        for (std::size_t i = 0; i < edge; ++i) {
+            const double* c = &corner[j * (edge + 1) + i];
+            out[j * edge + i] = c[edge + 2] - c[edge + 1] - c[1] + c[0];
+        }
+    for (std::size_t k = edge * edge; k < out.size(); ++k) out[k] = out[k - edge * edge];
+    return out;
+}
+
 std::vector<double> envSolidAngles(EnvLayout layout, int size, unsigned threads) {
+    require(size >= 1, "envSolidAngles: size must be >= 1");
+    if (layout == EnvLayout::Cube) return cubeSolidAngles(size);
     const glm::ivec2 extent = envExtent(layout, size);
     std::vector<double> out(static_cast<std::size_t>(extent.x) * extent.y);
     parallelFor(extent.y, threads, [&](std::size_t y) {

@@ -173,7 +173,7 @@ Harmonics::Harmonics(int order) : order_(order) {
 // transpose of synthesis, so there are no quadrature weights and no sampling error.
 Harmonics analyseHarmonics(std::span<const SpherePoint> points, int order, unsigned threads) {
     checkOrder(order);
-    const SphereWindow window;
+    const SphereWindow& window = sphereWindow();
     SphereGrid grid = makeSphereGrid(order);
     spreadPoints(points, window, grid, threads);
     RingSpectra onGrid = spectraOfRows(grid, window, order, threads);
@@ -233,7 +233,7 @@ std::vector<Vec4> synthesiseHarmonics(const Harmonics& harmonics, std::span<cons
             out[rings - 1 - q] = {even.re - odd.re, even.im - odd.im};
         }
     });
-    const SphereWindow window;
+    const SphereWindow& window = sphereWindow();
     SphereGrid grid = makeSphereGrid(order);
     std::vector<double> factor = inverseTransform(window, order, 2 * grid.rows);
     for (double& f : factor) f /= 2.0 * rings;

@@ -21,7 +21,7 @@ struct GridPosition {
 };
 
 GridPosition positionOf(const SphereGrid& grid, const Vec3& d) {
-    const double theta = std::atan2(std::hypot(d.x, d.y), d.z), phi = std::atan2(d.y, d.x);
+    const double theta = std::atan2(std::sqrt(d.x * d.x + d.y * d.y), d.z), phi = std::atan2(d.y, d.x);
     return {theta * grid.rows / kPi - 0.5, (phi < 0 ? phi + 2 * kPi : phi) * grid.columns / (2 * kPi)};
 }
 
@@ -73,8 +73,13 @@ SphereWindow::SphereWindow() : table_(static_cast<std::size_t>(kWidth) * kSteps 
         table_[i] = windowAt((static_cast<double>(i) / kSteps - 0.5 * kWidth) / (0.5 * kWidth));
 }
 
+const SphereWindow& sphereWindow() {
+    static const SphereWindow window;
+    return window;
+}
+
 double SphereWindow::transform(double k, int lines) const {
-    constexpr int kNodes = 128;  // midpoint rule: the window and its slopes vanish (to e^−β) at the ends
+    constexpr int kNodes = 64;  // midpoint rule: the window and its slopes vanish (to e^−β) at the ends
     double sum = 0;
     for (int i = 0; i < kNodes; ++i) {
         const double x = (i + 0.5) / kNodes;

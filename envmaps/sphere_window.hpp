@@ -39,6 +39,9 @@ private:
     std::vector<double> table_;
 };
 
+/// The one window, tabulated at the first call.
+const SphereWindow& sphereWindow();
+
 /// Rings θ_j = (j + ½)π/rows, φ_n = 2πn/columns of four values each, row by row. Beyond a pole a ring continues on the
 /// other side: (−1 − j, n) is (j, n + columns/2).
 struct SphereGrid {

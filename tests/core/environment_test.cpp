@@ -61,6 +61,18 @@ TEST(Environment, PositionInvertsDirection) {
             }
 }
 
+TEST(Environment, EdgesAndCornersOfTheCubeBelongToTheirFace) {
+    for (const int size : {1, 2, 5, 1024})
+        for (const double x : {-1.0, 0.3, 1.0})
+            for (const double y : {-1.0, 1.0})
+                for (const Vec3& d : {Vec3(x, y, 1), Vec3(x, 1, y), Vec3(1, x, y), Vec3(x, y, -1), Vec3(x, -1, y)}) {
+                    const glm::dvec2 p = envPosition(EnvLayout::Cube, size, d);
+                    const Vec3 back =
+                        envTexelDirection(EnvLayout::Cube, size, static_cast<int>(p.x), static_cast<int>(p.y));
+                    EXPECT_GT(glm::dot(back, glm::normalize(d)), std::cos(1.2 / size)) << size << d.x << d.y << d.z;
+                }
+}
+
 TEST(Environment, OrientationIsOpenExrs) {  // its registration differs: texel centres on the edges
     constexpr int kSize = 9;
     const Imath::Box2i cube(Imath::V2i(0, 0), Imath::V2i(kSize - 1, 6 * kSize - 1));

@@ -1,0 +1,179 @@
+#include "envmaps/lobes.hpp"
+
+#include <fmt/format.h>
+
+#include <array>
+
+#include "core/error.hpp"
+
+namespace nacre {
+namespace {
+
+struct Named {
+    LobeKind kind;
+    const char* name;
+};
+constexpr std::array<Named, 7> kNames{{{LobeKind::Mirror, "mirror"},
+                                       {LobeKind::Diffuse, "diffuse"},
+                                       {LobeKind::Phong, "phong"},
+                                       {LobeKind::Ggx, "ggx"},
+                                       {LobeKind::Beckmann, "beckmann"},
+                                       {LobeKind::GgxRefraction, "ggx_refraction"},
+                                       {LobeKind::BeckmannRefraction, "beckmann_refraction"}}};
+
+/// D(θh)/D(0): GGX and Beckmann as ratios, so that no alpha overflows.
+double ggx(double alpha, double sinH, double cosH) { return 1 / sqr(cosH * cosH + sqr(sinH / alpha)); }
+double beckmann(double alpha, double sinH, double cosH) {
+    const double c2 = cosH * cosH;
+    return c2 > 0 ? std::exp(-sqr(sinH / alpha) / c2) / (c2 * c2) : 0;
+}
+
+using Distribution = double (*)(double, double, double);
+
+ZonalKernel reflection(Distribution d, double alpha) {
+    const auto value = [=](double theta) {
+        return theta < kPi / 2 ? d(alpha, std::sin(theta / 2), std::cos(theta / 2)) * std::cos(theta) : 0.0;
+    };
+    return {value, 2 * alpha, kPi / 2};
+}
+
+/// θ = |θh − θt| with sinθt = sinθh/ior, solved for θh: tanθh = sinθ / |cosθ − 1/ior|.
+ZonalKernel refraction(Distribution d, double alpha, double ior) {
+    const double inverse = 1 / ior;
+    const double support = kPi / 2 - std::asin(std::min(ior, inverse));  // grazing facet, or total reflection
+    const auto value = [=](double theta) {
+        if (theta >= support) return 0.0;
+        const double slope = std::abs(std::cos(theta) - inverse), sine = std::sin(theta);
+        const double length = std::hypot(slope, sine), sinH = sine / length, cosH = slope / length;
+        const double cosT = std::sqrt(std::max(0.0, 1 - sqr(sinH * inverse)));
+        const double slowness = std::abs(cosT - cosH * inverse);  // cosθt · dθ/dθh
+        if (!(slowness > 0)) return 0.0;
+        return d(alpha, sinH, cosH) * cosH * cosT / (length * slowness) * std::cos(theta);  // sinθh/sinθ = 1/length
+    };
+    return {value, std::min(alpha, 1.0) * std::abs(1 - inverse), support};
+}
+
+struct Nodes {
+    std::array<double, 16> x, w;  ///< on [−1, 1]
+};
+
+/// Gauss–Legendre by Newton's method on P_16.
+Nodes gaussNodes() {
+    Nodes out{};
+    constexpr int n = 16;
+    for (int i = 0; i < n; ++i) {
+        double x = std::cos(kPi * (i + 0.75) / (n + 0.5)), slope = 1;
+        for (int step = 0; step < 20; ++step) {
+            double before = 1, now = x;
+            for (int k = 2; k <= n; ++k) {
+                const double next = ((2 * k - 1) * x * now - (k - 1) * before) / k;
+                before = now;
+                now = next;
+            }
+            slope = n * (x * now - before) / (x * x - 1);
+            x -= now / slope;
+        }
+        out.x[i] = x;
+        out.w[i] = 2 / ((1 - x * x) * slope * slope);
+    }
+    return out;
+}
+
+/// Calls visit(θ, dθ) over [0, support]: panels double away from the axis, and none is longer than P_order's waves ask.
+void integrate(const ZonalKernel& kernel, int order, const std::function<void(double, double)>& visit) {
+    static const Nodes nodes = gaussNodes();
+    const double longest = 8.0 / (order + 8);
+    double low = 0;
+    while (low < kernel.support) {
+        const double step = std::min(longest, std::max(kernel.width / 4, low / 2));
+        const double high = low + step > kernel.support - step / 8 ? kernel.support : low + step;
+        for (std::size_t i = 0; i < nodes.x.size(); ++i)
+            visit(low + (high - low) * (nodes.x[i] + 1) / 2, nodes.w[i] * (high - low) / 2);
+        low = high;
+    }
+}
+
+}  // namespace
+
+std::string toString(LobeKind kind) {
+    for (const Named& n : kNames)
+        if (n.kind == kind) return n.name;
+    return "?";
+}
+
+std::vector<std::string> lobeNames() {
+    std::vector<std::string> out;
+    for (const Named& n : kNames) out.emplace_back(n.name);
+    return out;
+}
+
+LobeKind lobeKindFromString(const std::string& name) {
+    for (const Named& n : kNames)
+        if (name == n.name) return n.kind;
+    throw std::invalid_argument(fmt::format("unknown lobe '{}'; known: {}", name, fmt::join(lobeNames(), ", ")));
+}
+
+bool usesAlpha(LobeKind kind) {
+    return kind == LobeKind::Ggx || kind == LobeKind::Beckmann || kind == LobeKind::GgxRefraction ||
+           kind == LobeKind::BeckmannRefraction;
+}
+
+void validateLobe(const Lobe& lobe) {
+    require(lobe.kind != LobeKind::Phong || (std::isfinite(lobe.exponent) && lobe.exponent >= 0),
+            fmt::format("phong: expected an exponent >= 0, found {}", lobe.exponent));
+    require(!usesAlpha(lobe.kind) || (lobe.alpha > 0 && lobe.alpha <= 1),
+            fmt::format("{}: expected alpha in (0, 1], found {}", toString(lobe.kind), lobe.alpha));
+    const bool refracts = lobe.kind == LobeKind::GgxRefraction || lobe.kind == LobeKind::BeckmannRefraction;
+    require(!refracts || (std::isfinite(lobe.ior) && lobe.ior > 0),
+            fmt::format("{}: expected an index of refraction > 0, found {}", toString(lobe.kind), lobe.ior));
+}
+
+ZonalKernel zonalKernel(const Lobe& lobe) {
+    validateLobe(lobe);
+    switch (lobe.kind) {
+        case LobeKind::Mirror:
+            break;
+        case LobeKind::Diffuse:
+            return {[](double t) { return std::max(0.0, std::cos(t)); }, 1, kPi / 2};
+        case LobeKind::Phong: {
+            const double n = lobe.exponent;
+            const auto value = [n](double t) { return t < kPi / 2 ? std::exp(n * std::log(std::cos(t))) : 0.0; };
+            // cosθ^n < e^−n θ²/2: beyond √(80/n) it is below 1e-17.
+            return {value, 1 / std::sqrt(n + 1), std::min(kPi / 2, std::sqrt(80 / std::max(n, 1e-9)))};
+        }
+        case LobeKind::Ggx:
+            return reflection(ggx, lobe.alpha);
+        case LobeKind::Beckmann:
+            return reflection(beckmann, lobe.alpha);
+        case LobeKind::GgxRefraction:
+            return refraction(ggx, lobe.alpha, lobe.ior);
+        case LobeKind::BeckmannRefraction:
+            return refraction(beckmann, lobe.alpha, lobe.ior);
+    }
+    throw std::invalid_argument("a mirror has no kernel");
+}
+
+std::vector<double> zonalCoefficients(const ZonalKernel& kernel, int order) {
+    std::vector<double> sums(static_cast<std::size_t>(order) + 1);
+    integrate(kernel, order, [&](double theta, double step) {
+        const double x = std::cos(theta), weight = kernel.value(theta) * std::sin(theta) * step;
+        double before = 0, now = 1;
+        for (int l = 0; l <= order; ++l) {
+            sums[l] += weight * now;
+            const double next = ((2 * l + 1) * x * now - l * before) / (l + 1);
+            before = now;
+            now = next;
+        }
+    });
+    const double total = sums[0];
+    for (double& sum : sums) sum /= total;
+    return sums;
+}
+
+double zonalIntegral(const ZonalKernel& kernel) {
+    double sum = 0;
+    integrate(kernel, 0, [&](double theta, double step) { sum += kernel.value(theta) * std::sin(theta) * step; });
+    return 2 * kPi * sum;
+}
+
+}  // namespace nacre

@@ -1,0 +1,133 @@
+#include "reference/environment_error.hpp"
+
+#include <random>
+
+#include "core/error.hpp"
+#include "core/parallel.hpp"
+
+namespace nacre {
+
+namespace {
+
+double distribution(bool beckmann, double cosH, double alpha) {
+    if (cosH <= 0) return 0;
+    const double c2 = cosH * cosH, tan2 = std::max(0.0, 1 - c2) / c2, a2 = alpha * alpha;
+    if (beckmann) return std::exp(-tan2 / a2) / (kPi * a2 * c2 * c2);
+    return a2 / (kPi * c2 * c2 * sqr(a2 + tan2));
+}
+
+double refractedWeight(const Lobe& lobe, bool beckmann, const Vec3& r, const Vec3& l) {
+    const Vec3 n = -r, viewer = n;
+    const double cosL = -glm::dot(l, n);  // the light comes from beyond the surface
+    if (cosL <= 0) return 0;
+    Vec3 h = -(viewer + lobe.ior * l);
+    const double length = glm::length(h);
+    if (length == 0) return 0;
+    h /= lobe.ior > 1 ? length : -length;  // towards the viewer's side
+    const double viewerH = glm::dot(viewer, h), lightH = glm::dot(l, h);
+    if (viewerH <= 0 || lightH >= 0) return 0;
+    const double jacobian = sqr(lobe.ior) * std::abs(lightH) / sqr(viewerH + lobe.ior * lightH);
+    return distribution(beckmann, glm::dot(n, h), lobe.alpha) * glm::dot(n, h) * jacobian * cosL;
+}
+
+}  // namespace
+
+double lobeWeight(const Lobe& lobe, const Vec3& r, const Vec3& l) {
+    const double cosine = glm::dot(r, l);
+    const bool beckmann = lobe.kind == LobeKind::Beckmann || lobe.kind == LobeKind::BeckmannRefraction;
+    switch (lobe.kind) {
+        case LobeKind::Diffuse:
+            return std::max(0.0, cosine);
+        case LobeKind::Phong:
+            return cosine > 0 ? std::pow(cosine, lobe.exponent) : 0;
+        case LobeKind::Ggx:
+        case LobeKind::Beckmann:
+            if (cosine <= 0) return 0;
+            return distribution(beckmann, glm::dot(r, glm::normalize(l + r)), lobe.alpha) * cosine;
+        case LobeKind::GgxRefraction:
+        case LobeKind::BeckmannRefraction:
+            return refractedWeight(lobe, beckmann, r, l);
+        case LobeKind::Mirror:
+            break;
+    }
+    throw std::invalid_argument("lobeWeight: a mirror has no weights");
+}
+
+EnvironmentTruth::EnvironmentTruth(const EnvMap& source, unsigned threads) : source_(&source) {
+    const int size = source.size(), width = source.image.width();
+    const std::vector<double> solidAngles = envSolidAngles(source.layout, size, threads);
+    for (std::size_t i = 0; i < solidAngles.size(); ++i) {
+        const int x = static_cast<int>(i) % width, y = static_cast<int>(i) / width;
+        if (solidAngles[i] > 0)
+            texels_.push_back({envTexelDirection(source.layout, size, x, y), solidAngles[i], source.image.rgb(x, y)});
+    }
+}
+
+Rgb EnvironmentTruth::operator()(const Lobe& lobe, const Vec3& r) const {
+    Rgb sum(0);
+    double weights = 0;
+    for (const Texel& texel : texels_) {
+        const double weight = lobeWeight(lobe, r, texel.direction) * texel.solidAngle;
+        sum += weight * texel.radiance;
+        weights += weight;
+    }
+    if (weights > 0) return sum / weights;
+    const glm::dvec2 p = envPosition(source_->layout, source_->size(), r);
+    return source_->image.rgb(std::clamp(static_cast<int>(p.x), 0, source_->image.width() - 1),
+                              std::clamp(static_cast<int>(p.y), 0, source_->image.height() - 1));
+}
+
+namespace {
+struct Spread {
+    double rmse, p95, max;
+};
+Spread spreadOf(const std::vector<Rgb>& found, const std::vector<Rgb>& expected, double mean) {
+    std::vector<double> errors;
+    double squares = 0;
+    for (std::size_t i = 0; i < found.size(); ++i)
+        for (int c = 0; c < 3; ++c) {
+            errors.push_back(std::abs(found[i][c] - expected[i][c]));
+            squares += sqr(errors.back());
+        }
+    std::sort(errors.begin(), errors.end());
+    const double count = static_cast<double>(errors.size());
+    const auto relative = [mean](double e) { return mean > 0 ? e / mean : e; };  // a black map: absolute
+    return {relative(std::sqrt(squares / count)), relative(errors[static_cast<std::size_t>(0.95 * (count - 1))]),
+            relative(errors.back())};
+}
+}  // namespace
+
+EnvironmentError measureEnvironment(const EnvMap& map, const EnvironmentTruth& truth, const Lobe& lobe, int samples,
+                                    std::uint64_t seed, unsigned threads) {
+    require(samples >= 1, "measureEnvironment: samples must be >= 1");
+    std::mt19937_64 random(seed);
+    const auto uniform = [&] { return static_cast<double>(random() >> 11) * 0x1p-53; };
+    std::vector<Vec3> directions;
+    std::vector<Rgb> found, expected(2 * samples);
+    while (directions.size() < static_cast<std::size_t>(samples)) {
+        const int x = static_cast<int>(uniform() * map.image.width()),
+                  y = static_cast<int>(uniform() * map.image.height());
+        if (envSolidAngle(map.layout, map.size(), x, y) == 0) continue;
+        directions.push_back(envTexelDirection(map.layout, map.size(), x, y));
+        found.push_back(map.image.rgb(x, y));
+    }
+    for (int i = 0; i < samples; ++i) {
+        const double z = 1 - 2 * uniform(), phi = 2 * kPi * uniform(), s = std::sqrt(std::max(0.0, 1 - z * z));
+        directions.emplace_back(s * std::cos(phi), s * std::sin(phi), z);
+        found.push_back(sampleEnv(map, directions.back()));
+    }
+    parallelFor(directions.size(), threads, [&](std::size_t i) { expected[i] = truth(lobe, directions[i]); });
+    EnvironmentError out;
+    out.samples = samples;
+    for (int i = 0; i < samples; ++i) out.mean += mean(expected[i]) / samples;
+    const auto part = [&](const std::vector<Rgb>& all, int first) {
+        return std::vector<Rgb>(all.begin() + first, all.begin() + first + samples);
+    };
+    const Spread centres = spreadOf(part(found, 0), part(expected, 0), out.mean);
+    const Spread between = spreadOf(part(found, samples), part(expected, samples), out.mean);
+    out.rmse = centres.rmse, out.p95 = centres.p95, out.max = centres.max;
+    out.filteredRmse = between.rmse, out.filteredP95 = between.p95, out.filteredMax = between.max;
+    return out;
+}
+
+}  // namespace nacre
