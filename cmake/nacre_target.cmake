@@ -5,6 +5,7 @@ function(nacre_library name)
   cmake_parse_arguments(ARG "" "" "PUBLIC;PRIVATE" ${ARGN})
   file(GLOB_RECURSE sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/*.cpp)
   list(FILTER sources EXCLUDE REGEX "/main\\.cpp$")  # a program beside the library has its own target
+  list(FILTER sources EXCLUDE REGEX "_module\\.cpp$")  # and so has what is loaded at run time
   add_library(nacre_${name} STATIC ${sources})
   add_library(nacre::${name} ALIAS nacre_${name})
   set_target_properties(nacre_${name} PROPERTIES EXPORT_NAME ${name} POSITION_INDEPENDENT_CODE ON)

@@ -2,44 +2,24 @@
 #include <ImfChannelList.h>
 #include <ImfFrameBuffer.h>
 #include <ImfHeader.h>
-#include <ImfIO.h>
 #include <ImfInputPart.h>
 #include <ImfMultiPartInputFile.h>
 #include <ImfPartType.h>
 #include <ImfStringAttribute.h>
 #include <fmt/format.h>
 
-#include <cstring>
 #include <memory>
 #include <set>
 
 #include "core/asset.hpp"
 #include "core/asset_exr.hpp"
 #include "core/error.hpp"
+#include "core/exr_stream.hpp"
 #include "core/file.hpp"
 
 namespace nacre {
 
 namespace {
-
-class MemoryIStream : public Imf::IStream {
-public:
-    explicit MemoryIStream(std::span<const std::uint8_t> bytes) : Imf::IStream("file"), bytes_(bytes) {}
-    bool read(char c[], int n) override {
-        const std::uint64_t left = position_ < bytes_.size() ? bytes_.size() - position_ : 0;
-        if (n < 0 || static_cast<std::uint64_t>(n) > left)
-            throw IEX_NAMESPACE::InputExc("the file ends too early: it is truncated");
-        std::memcpy(c, bytes_.data() + position_, static_cast<std::size_t>(n));
-        position_ += static_cast<std::uint64_t>(n);
-        return position_ < bytes_.size();
-    }
-    uint64_t tellg() override { return position_; }
-    void seekg(uint64_t pos) override { position_ = pos; }
-
-private:
-    std::span<const std::uint8_t> bytes_;
-    std::uint64_t position_ = 0;
-};
 
 /// What the JSON says of one texture.
 struct TableEntry {
@@ -247,7 +227,7 @@ Asset parseAsset(std::span<const std::uint8_t> bytes, const std::string& name) {
     if (const auto attribute = exr::attributeBeyondEnd(bytes))
         fail(name, "", "an OpenEXR file",
              fmt::format("attribute '{}' larger than the file, or cut short", shortened(*attribute)));
-    MemoryIStream stream(bytes);
+    exr::MemoryIStream stream(bytes);
     std::unique_ptr<Imf::MultiPartInputFile> file;
     try {
         // No thread pool, and no reconstruction of a broken chunk table: a truncated file is an error.

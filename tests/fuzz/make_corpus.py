@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
 """Writes the corpus files that are made by formula: small measured files of every layout.
 Run from the repository root: python3 tests/fuzz/make_corpus.py
-(corpus/asset comes from the nacre command: factorize MODEL --size 4 in each storage format.)"""
+(corpus/asset comes from the nacre command: factorize MODEL --size 4 in each storage format; corpus/exr from OpenEXR:
+tests/core/exr_files.hpp, 9 × 9 texels or less in each compression.)"""
 import math
 import os
 import struct
@@ -67,3 +68,10 @@ write("samples/header.csv", b"a,b,c\n1,2,3\n")
 write("directions/header.csv", b"wix,wiy,wiz,wox,woy,woz\n0,0,1,0,0,1\n0.6,0,0.8,0,0.6,0.8\r\n# end\n")
 write("directions/bare.csv", b"0,0,1,0,0,1")
 write("directions/broken.csv", b"0,0,1,0,0\n1,nan,inf,1e999,-0,.\n,,,,,\n")
+head = b"#?RADIANCE\nEXPOSURE=2\nFORMAT=32-bit_rle_rgbe\n\n"
+write("radiance/flat.hdr", head + b"-Y 2 +X 3\n" + bytes(range(100, 124)))
+write("radiance/old_runs.hdr", head + b"+Y 1 -X 8\n" + b"\x80\x40\x20\x88\x01\x01\x01\x07")
+row = b"\x02\x02\x00\x0a" + b"\x8a\x80" + b"\x03\x01\x02\x03\x87\x04" + b"\x0a" + bytes(range(10)) + b"\x8a\x88"
+write("radiance/runs.hdr", head + b"-Y 2 +X 10\n" + row + row)
+write("radiance/cut.hdr", head + b"-Y 2 +X 10\n" + row)
+write("radiance/huge.hdr", head + b"-Y 16384 +X 16384\n" + row)

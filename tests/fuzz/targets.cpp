@@ -12,6 +12,7 @@
 #include "core/asset.hpp"
 #include "core/error.hpp"
 #include "core/file.hpp"
+#include "core/image_file.hpp"
 #include "factorize/factored_brdf.hpp"
 #include "factorize/measured/merl.hpp"
 #include "factorize/measured/rgl.hpp"
@@ -50,6 +51,9 @@ static void readModelText(std::span<const std::uint8_t> bytes) {
     requireDefined(model.f(kIn, kOut), model.source.c_str());
 }
 
+static void readExrBytes(std::span<const std::uint8_t> bytes) { parseExrImage(bytes, "input"); }
+static void readRadianceBytes(std::span<const std::uint8_t> bytes) { parseRadianceImage(bytes, "input"); }
+
 static void readDirections(std::span<const std::uint8_t> bytes) {
     std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
     cli::DirectionReader reader;
@@ -64,7 +68,8 @@ static void readDirections(std::span<const std::uint8_t> bytes) {
 const std::vector<FuzzTarget>& fuzzTargets() {
     static const std::vector<FuzzTarget> targets = {{"asset", readAssetBytes}, {"merl", readMerlBytes},
                                                     {"rgl", readRglBytes},     {"samples", readSamplesText},
-                                                    {"model", readModelText},  {"directions", readDirections}};
+                                                    {"model", readModelText},  {"directions", readDirections},
+                                                    {"exr", readExrBytes},     {"radiance", readRadianceBytes}};
     return targets;
 }
 
