@@ -1,15 +1,11 @@
 // nacre factorize: open, bake, measure what was written, write both.
 #include <fmt/format.h>
-#include <unistd.h>
 
-#include <cerrno>
-#include <chrono>
 #include <cmath>
-#include <cstring>
 #include <filesystem>
-#include <fstream>
 #include <memory>
 
+#include "cli/output_file.hpp"
 #include "cli/terminal.hpp"
 #include "cli/truth.hpp"
 #include "cli/verb.hpp"
@@ -29,23 +25,6 @@ struct Settings {
     std::string source, output, format = "half";
     FactorizeOptions options;
     bool asJson = false;
-};
-
-class Stopwatch {
-public:
-    double seconds() const { return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count(); }
-
-private:
-    std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
-};
-
-/// A file that is gone when the scope is left.
-struct ProvisionalFile {
-    fs::path path;
-    ~ProvisionalFile() {
-        std::error_code ignored;
-        fs::remove(path, ignored);
-    }
 };
 
 }  // namespace
@@ -75,18 +54,6 @@ static json dataJson(const DataReport& d) {
 
 static BrdfFunction functionOf(const FactoredBrdf& brdf) {
     return [&brdf](const Vec3& wi, const Vec3& wo) { return evaluate(brdf, wi, wo); };
-}
-
-/// Fails before the bake when nothing can be written there.
-static void requireWritable(const std::string& source, const std::string& output, const fs::path& provisional) {
-    require(!output.empty(), "-o: expected a file name, found none");
-    std::error_code failure;
-    require(!fs::equivalent(source, output, failure),
-            fmt::format("{}: expected an output other than the source, which it would replace", output));
-    if (fs::exists(output, failure) && !fs::is_regular_file(output, failure))
-        throw Error(fmt::format("{}: can't write: expected a file or a free name, found a folder or device", output));
-    if (!std::ofstream(provisional)) throw Error(fmt::format("{}: can't write: {}", output, std::strerror(errno)));
-    fs::remove(provisional, failure);  // it comes back for a moment after the bake; nothing is left by a kill before
 }
 
 /// The asset as it comes back from disk: what is measured is what a reader gets.
@@ -138,7 +105,7 @@ static void requireBudget(const Settings& s, const FactoredBrdf& baked) {
 }
 
 static void runFactorize(const Context& context, Settings& s) {
-    const fs::path provisional = s.output + fmt::format(".{}.provisional", ::getpid());
+    const fs::path provisional = provisionalName(s.output);
     const ProvisionalFile removeLater{provisional};
     requireWritable(s.source, s.output, provisional);
 

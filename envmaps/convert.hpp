@@ -26,6 +26,9 @@ EnvMap mirrorEnvX(const EnvMap& map);
 /// L'(x, y, z) = L(x, −y, z): upside down.
 EnvMap mirrorEnvY(const EnvMap& map);
 
+/// The size at which `layout` has texels about as wide as the map's: 256 faces for 1024 × 512, and so on.
+int matchingSize(const EnvMap& map, EnvLayout layout);
+
 /// Σ L dω [W/m²]: what conversion keeps.
 Rgb envEnergy(const EnvMap& map, unsigned threads = 0);
 

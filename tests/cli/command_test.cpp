@@ -40,6 +40,7 @@ std::vector<std::string> bake(const std::filesystem::path& output, std::vector<s
 TEST(CommandUsage, HelpOfEveryVerbGoesToStandardOutput) {
     for (const std::vector<std::string>& words : {std::vector<std::string>{"--help"},
                                                   {"factorize", "--help"},
+                                                  {"envmap", "--help"},
                                                   {"info", "--help"},
                                                   {"eval", "--help"},
                                                   {"models", "--help"},
@@ -55,7 +56,7 @@ TEST(CommandUsage, HelpOfEveryVerbGoesToStandardOutput) {
 
 TEST(CommandUsage, WrongUsageIsExitTwo) {
     const Scratch scratch;
-    expectFailure(nacre({}), 2, {"expected a verb", "factorize, info, eval, models, methods"});
+    expectFailure(nacre({}), 2, {"expected a verb", "factorize, envmap, info, eval, models, methods"});
     expectFailure(nacre({"frobnicate"}), 2, {"'frobnicate'", "factorize"});
     expectFailure(nacre({"factorize", "lambert"}), 2, {"--output is required"});
     expectFailure(nacre({"info"}), 2, {"file"});
