@@ -10,13 +10,13 @@
 #include <fstream>
 #include <memory>
 
+#include "cli/data_report.hpp"
 #include "cli/terminal.hpp"
-#include "cli/truth.hpp"
 #include "cli/verb.hpp"
 #include "core/asset.hpp"
 #include "core/error.hpp"
 #include "factorize/factorize.hpp"
-#include "reference/brdf_metrics.hpp"
+#include "reference/factored_metrics.hpp"
 
 namespace nacre::cli {
 
@@ -50,31 +50,12 @@ struct ProvisionalFile {
 
 }  // namespace
 
-static json orNull(double value) { return std::isfinite(value) ? json(value) : json(nullptr); }
-
-static json errorJson(const BrdfError& e, double reciprocityResidual) {
-    return {{"l2_rel", orNull(e.l2Rel)},
-            {"log_rms", orNull(e.logRms)},
-            {"max_rel", orNull(e.maxRel)},
-            {"grazing_l2_rel", orNull(e.grazingL2Rel)},
-            {"sphere_psnr", orNull(e.spherePsnr)},
-            {"albedo_max_abs", orNull(e.albedoMaxAbs)},
-            {"reciprocity_residual", orNull(reciprocityResidual)},
-            {"samples", e.samples},
-            {"negative", e.negative},
-            {"non_finite", e.nonFinite}};
-}
-
 static json dataJson(const DataReport& d) {
     return {{"entries", d.entries},
             {"missing", d.missing},
             {"negative", d.negative},
             {"non_finite", d.nonFinite},
             {"rule", d.rule}};
-}
-
-static BrdfFunction functionOf(const FactoredBrdf& brdf) {
-    return [&brdf](const Vec3& wi, const Vec3& wo) { return evaluate(brdf, wi, wo); };
 }
 
 /// Fails before the bake when nothing can be written there.
@@ -105,16 +86,6 @@ static std::string summaryText(const std::string& output, const json& meta) {
         humanBytes(meta["bytes"].get<std::size_t>()), meta.value("fetches", 0), meta["seconds"].get<double>(),
         number("l2_rel"), number("log_rms"), number("max_rel"), number("grazing_l2_rel"), number("sphere_psnr"),
         number("albedo_max_abs"));
-}
-
-/// The budget search asks with the very samples of the final measurement, so that what it accepts holds.
-static std::function<double(const FactoredBrdf&)> budgetMeasure(const BrdfFunction& truth,
-                                                                const BrdfMetricOptions& metric) {
-    auto samples = std::make_shared<std::vector<TruthSample>>();
-    return [=](const FactoredBrdf& candidate) {
-        if (samples->empty()) *samples = sampleTruth(truth, metric);
-        return l2Rel(functionOf(candidate), *samples, metric.threads);
-    };
 }
 
 static void describe(json& meta, const Context& context, const Settings& s, const Reflectance& reflectance) {
@@ -167,7 +138,8 @@ static void runFactorize(const Context& context, Settings& s) {
     describe(asset.meta, context, s, reflectance);
     asset.meta["seconds"] = seconds;
     asset.meta["measure_seconds"] = measuring.seconds();
-    asset.meta["error"] = errorJson(error, reflectance.reciprocityResidual);
+    asset.meta["error"] = toJson(error);
+    asset.meta["error"]["reciprocity_residual"] = reflectance.reciprocityResidual;
     const json meta = throughFile(asset, s.output).meta;
     if (!(error.l2Rel < 1) || error.negative > 0)
         tell(fmt::format("{}: a poor fit: l2_rel {:.3g} (black scores 1), {} of {} samples negative", s.output,

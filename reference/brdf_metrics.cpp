@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <limits>
+#include <nlohmann/json.hpp>
 #include <string>
 
 #include "core/error.hpp"
@@ -140,6 +141,14 @@ BrdfError measureBrdf(const BrdfFunction& approximate, const BrdfFunction& truth
     error.negative = sums.negative;
     error.nonFinite = sums.nonFinite;
     return error;
+}
+
+nlohmann::json toJson(const BrdfError& e) {
+    return {{"l2_rel", e.l2Rel},           {"log_rms", e.logRms},
+            {"max_rel", e.maxRel},         {"grazing_l2_rel", e.grazingL2Rel},
+            {"sphere_psnr", e.spherePsnr}, {"albedo_max_abs", e.albedoMaxAbs},
+            {"samples", e.samples},
+            {"negative", e.negative},      {"non_finite", e.nonFinite}};
 }
 
 }  // namespace nacre

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstdint>
+#include <nlohmann/json_fwd.hpp>
 #include <vector>
 
 #include "factorize/reflectance.hpp"
@@ -44,6 +45,9 @@ struct BrdfError {
 /// std::invalid_argument when samples is out of range, or the truth is negative or not finite somewhere
 BrdfError measureBrdf(const BrdfFunction& approximate, const BrdfFunction& truth,
                       const BrdfMetricOptions& options = {});
+
+/// The fields by the names of README.md: l2_rel, log_rms, … Numbers that are not finite stay so (written: null).
+nlohmann::json toJson(const BrdfError& error);
 
 /// The truth at the points of comparison, evaluated once for many candidates.
 struct TruthSample {

@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <limits>
+#include <nlohmann/json.hpp>
 
 #include "core/directions.hpp"
 
@@ -188,4 +189,18 @@ TEST(BrdfMetrics, SameBitsForAnyThreadCount) {
     EXPECT_EQ(one.spherePsnr, seven.spherePsnr);
     EXPECT_EQ(one.albedoMaxAbs, seven.albedoMaxAbs);
     EXPECT_EQ(one.samples, seven.samples);
+}
+
+TEST(BrdfMetrics, JsonNamesEveryField) {
+    BrdfError error;
+    error.l2Rel = 0.25;
+    error.spherePsnr = -std::numeric_limits<double>::infinity();
+    error.negative = 7;
+    const nlohmann::json json = toJson(error);
+    for (const char* key : {"l2_rel", "log_rms", "max_rel", "grazing_l2_rel", "sphere_psnr", "albedo_max_abs",
+                            "samples", "negative", "non_finite"})
+        EXPECT_TRUE(json.contains(key)) << key;
+    EXPECT_EQ(json["l2_rel"], 0.25);
+    EXPECT_EQ(json["negative"], 7);
+    EXPECT_TRUE(nlohmann::json::parse(json.dump())["sphere_psnr"].is_null());
 }
