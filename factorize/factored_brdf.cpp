@@ -29,6 +29,13 @@ std::size_t texturesNeeded(const FactoredBrdf& b) {
     return 1;
 }
 
+bool isLayout(float value) {
+    for (const HalfDiffLayout layout :
+         {HalfDiffLayout::Product, HalfDiffLayout::Harmonics, HalfDiffLayout::Compact, HalfDiffLayout::Grazing})
+        if (value == static_cast<float>(layout)) return true;
+    return false;
+}
+
 }  // namespace
 
 std::string toString(FactoredForm form) { return kFormNames[static_cast<std::size_t>(form)]; }
@@ -78,6 +85,9 @@ FactoredBrdf factoredFromAsset(const Asset& asset, const std::string& path) {
     } catch (const std::exception& error) {
         throw Error(fmt::format("{}: bad brdf description: {}", path, error.what()));
     }
+    if (out.form == FactoredForm::HalfDiff && !isLayout(out.params[0].y))
+        throw Error(fmt::format("{}: bad brdf description: expected a half_diff layout 0 to 3, found {}", path,
+                                out.params[0].y));
     out.textures = asset.textures;
     const std::size_t needed = texturesNeeded(out);
     if (out.textures.size() != needed)

@@ -210,6 +210,40 @@ TEST(CommandInfo, ExrThatIsNoNacreAsset) {  // the same file with the attribute 
     expectFailure(nacre({"info", (scratch / "b.exr").string()}), 1, {"b.exr", "an EXR that is no nacre asset"});
 }
 
+/// A baked asset whose metadata says something else, at the same length.
+std::filesystem::path relabelled(const Scratch& scratch, const std::string& from, const std::string& to) {
+    EXPECT_EQ(nacre(bake(scratch / "a.exr")).code, 0);
+    std::string bytes = contents(scratch / "a.exr");
+    const std::size_t at = bytes.find(from);
+    EXPECT_NE(at, std::string::npos) << from;
+    if (at != std::string::npos) bytes.replace(at, from.size(), to);
+    std::ofstream(scratch / "b.exr", std::ios::binary) << bytes;
+    return scratch / "b.exr";
+}
+
+TEST(CommandInfo, FormAndKindOfALaterVersion) {  // shown, but not as if they could be used
+    const Scratch scratch;
+    const std::string form = relabelled(scratch, "\"form\": \"single_lobe\"", "\"form\": \"neural_lobe\"").string();
+    for (const std::vector<std::string>& words : {std::vector<std::string>{"info", form}, {"info", form, "--json"}}) {
+        const Outcome outcome = nacre(words);
+        EXPECT_EQ(outcome.code, 0) << outcome.err;
+        EXPECT_THAT(outcome.out, HasSubstr("neural_lobe"));
+        EXPECT_THAT(outcome.err, AllOf(HasSubstr("unknown factored form 'neural_lobe'"), HasSubstr("can't use")));
+    }
+    expectFailure(nacre({"eval", form}), 1, {"b.exr", "unknown factored form 'neural_lobe'", "single_lobe"});
+    const std::string kind = relabelled(scratch, "\"kind\": \"brdf\"", "\"kind\": \"bump\"").string();
+    const Outcome outcome = nacre({"info", kind});
+    EXPECT_THAT(outcome.out, HasSubstr("bump"));
+    EXPECT_THAT(outcome.err, AllOf(HasSubstr("does not know the kind 'bump'"), HasSubstr("can't use")));
+    expectFailure(nacre({"eval", kind}), 1, {"expected an asset of kind brdf, found bump"});
+}
+
+TEST(CommandInfo, UsableAssetIsShownWithoutComplaint) {
+    const Scratch scratch;
+    ASSERT_EQ(nacre(bake(scratch / "a.exr")).code, 0);
+    EXPECT_THAT(nacre({"info", (scratch / "a.exr").string()}).err, IsEmpty());
+}
+
 TEST(CommandInfo, OversizedFiles) {  // sparse: they take no room on disk, and must take none in memory
     const Scratch scratch;
     for (const char* name : {"huge.exr", "huge.binary", "huge.bsdf", "huge.csv"}) {

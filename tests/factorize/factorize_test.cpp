@@ -197,5 +197,16 @@ TEST(FactoredBrdf, RejectsAssetsThatLackParts) {
     EXPECT_THROW(factoredFromAsset(asset, "x.exr"), Error);
 }
 
+TEST(FactoredBrdf, RejectsALayoutItDoesNotKnow) {
+    Asset asset = toAsset(bake("torrance-sparrow:alpha=0.5", "cosine", 16));
+    asset.meta["form"] = "half_diff";
+    for (const double layout : {4.0, -1.0, 0.5}) {
+        asset.meta["params"][0][1] = layout;
+        EXPECT_THROW(factoredFromAsset(asset, "x.exr"), Error) << layout;
+    }
+    asset.meta["params"][0][1] = 0.0;
+    EXPECT_NO_THROW(factoredFromAsset(asset, "x.exr"));
+}
+
 }  // namespace
 }  // namespace nacre
