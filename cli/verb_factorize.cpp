@@ -109,6 +109,7 @@ static void requireBudget(const Settings& s, const FactoredBrdf& baked) {
 }
 
 static void runFactorize(const Context& context, Settings& s) {
+    if (const auto unused = unusedOption(s.options)) throw UsageError("--" + *unused);
     const fs::path provisional = s.output + fmt::format(".{}.provisional", ::getpid());
     const ProvisionalFile removeLater{provisional};
     requireWritable(s.source, s.output, provisional);

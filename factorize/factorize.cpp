@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "core/error.hpp"
+#include "factorize/budget_search.hpp"
 #include "factorize/methods.hpp"
 
 namespace nacre {
@@ -93,14 +94,6 @@ std::vector<std::string> suitable(const Reflectance& r) {
     return out;
 }
 
-std::string budgetText(const FactorizeOptions& o) {
-    std::string text;
-    if (o.maxError) text += fmt::format(" error <= {}", *o.maxError);
-    if (o.maxBytes) text += fmt::format(" bytes <= {}", *o.maxBytes);
-    if (o.maxFetches) text += fmt::format(" fetches <= {}", *o.maxFetches);
-    return text;
-}
-
 int fetchesOf(const Candidate& c, const FactorizeOptions& options, const Reflectance& r) {
     if (c.method == "fit") return c.layout == HalfDiffLayout::Compact ? 1 : 2;
     if (c.method == "svd") return 2 * (options.terms == 0 ? 2 : options.terms);
@@ -109,46 +102,71 @@ int fetchesOf(const Candidate& c, const FactorizeOptions& options, const Reflect
     return 2;
 }
 
-/// Texels' bytes before anything is baked: an upper bound for grey models.
+/// Texels' bytes before anything is baked: exact for the fit, a lower bound for the others, in the same proportion to
+/// the exact figure for every size of a ladder.
 std::size_t bytesOf(const Candidate& c, const FactorizeOptions& options) {
     const std::size_t unit = bytesPerChannel(options.format);
     const std::size_t first = static_cast<std::size_t>(c.sizes.first.x) * c.sizes.first.y;
     const std::size_t second = static_cast<std::size_t>(c.sizes.second.x) * c.sizes.second.y;
-    if (c.method == "fit") return unit * 4 * (first + (c.layout == HalfDiffLayout::Harmonics ? second : 0));
-    return unit * first;  // at least: the exact figure is checked after the bake
+    if (c.method == "fit") {
+        const std::size_t secondChannels = c.layout == HalfDiffLayout::Compact   ? 0
+                                           : c.layout == HalfDiffLayout::Grazing ? 3
+                                                                                 : 4;
+        return unit * (4 * first + secondChannels * second);
+    }
+    if (c.method == "analytic" || c.method == "cosine") return unit * (first + second);
+    return unit * first;
 }
 
-/// With a bound on the error: from small to large, the first that meets it. Without: the largest within bytes and
-/// fetches.
+/// An explicit number of terms decides the layout of the fit: false for sizes of the others.
+bool withTerms(Candidate& c, const FactorizeOptions& options) {
+    if (c.method != "fit" || options.terms == 0) return true;
+    const HalfDiffLayout wanted = ofSize(c.method, options).layout;
+    if ((c.layout == HalfDiffLayout::Compact) != (wanted == HalfDiffLayout::Compact)) return false;
+    c.layout = wanted;
+    return true;
+}
+
 FactoredBrdf withinBudget(const Reflectance& r, const std::vector<std::string>& methods,
                           const FactorizeOptions& options) {
-    std::vector<Candidate> candidates;
+    std::vector<BudgetCandidate> candidates;
     for (const std::string& method : methods)
-        for (const Candidate& c : ladder(method))
-            if ((!options.maxBytes || bytesOf(c, options) <= *options.maxBytes) &&
-                (!options.maxFetches || fetchesOf(c, options, r) <= *options.maxFetches))
-                candidates.push_back(c);
-    std::stable_sort(candidates.begin(), candidates.end(),
-                     [&](const Candidate& a, const Candidate& b) { return bytesOf(a, options) < bytesOf(b, options); });
-    if (!options.maxError) std::reverse(candidates.begin(), candidates.end());
+        for (Candidate c : ladder(method))
+            if (withTerms(c, options))
+                candidates.push_back({fmt::format("{} {}", c.method, static_cast<int>(c.layout)), bytesOf(c, options),
+                                      fetchesOf(c, options, r), [&r, &options, c] { return bake(r, c, options); }});
+    return searchBudget(r.source, std::move(candidates), options);
+}
 
-    double nearest = std::numeric_limits<double>::infinity();
-    std::string nearestText = "nothing that small exists";
-    for (const Candidate& c : candidates) {
-        FactoredBrdf brdf = bake(r, c, options);
-        const bool small = (!options.maxBytes || brdf.bytes() <= *options.maxBytes) &&
-                           (!options.maxFetches || brdf.fetches <= *options.maxFetches);
-        if (small && !options.maxError) return brdf;
-        if (!small) continue;
-        const double error = options.measure(brdf);
-        if (error <= *options.maxError) return brdf;
-        if (error < nearest) {
-            nearest = error;
-            nearestText = fmt::format("nearest: {} with error {:.4g}, {} bytes, {} fetches", c.method, error,
-                                      brdf.bytes(), brdf.fetches);
-        }
+/// An option that not every method has.
+struct SpecialOption {
+    std::string name;
+    std::vector<std::string> methods;  ///< that use it
+    bool isSet;
+    bool isUsedBy(const std::string& method) const {
+        return std::find(methods.begin(), methods.end(), method) != methods.end();
     }
-    throw Error(fmt::format("{}: no representation within{}; {}", r.source, budgetText(options), nearestText));
+    std::string complaint(const std::string& found) const {
+        return fmt::format("{}: only {} {} it, found method {}", name, fmt::join(methods, " and "),
+                           methods.size() == 1 ? "takes" : "take", found);
+    }
+};
+
+std::vector<SpecialOption> specialOptions(const FactorizeOptions& o) {
+    return {{"terms", {"fit", "svd"}, o.terms != 0}, {"parametrization", {"svd"}, !o.parametrization.empty()}};
+}
+
+/// The method asked for; for auto those that fit the input and use every option that is set.
+std::vector<std::string> methodsFor(const Reflectance& r, const FactorizeOptions& options) {
+    if (options.method != "auto") return {options.method};
+    std::vector<std::string> out = suitable(r);
+    for (const SpecialOption& option : specialOptions(options)) {
+        if (!option.isSet) continue;
+        const std::string considered = fmt::format("auto, which chooses among {} here", fmt::join(out, ", "));
+        std::erase_if(out, [&](const std::string& method) { return !option.isUsedBy(method); });
+        require(!out.empty(), option.complaint(considered));
+    }
+    return out;
 }
 
 void checkOptions(const FactorizeOptions& options) {
@@ -157,6 +175,8 @@ void checkOptions(const FactorizeOptions& options) {
     require(options.terms >= 0 && options.terms <= 3,
             fmt::format("factorize: terms must be 1 to 3, found {}", options.terms));
     require(!options.maxError || options.measure, "factorize: a bound on the error needs a measure");
+    const std::optional<std::string> unused = unusedOption(options);
+    require(!unused, unused.value_or(""));
     if (options.method == "auto") return;
     std::string known = "auto";
     for (const FactorizeMethod& m : factorizeMethods()) {
@@ -181,10 +201,16 @@ std::vector<FactorizeMethod> factorizeMethods() {
         {"tangent", "one texture over the two angles to the tangent", "banks"}};
 }
 
+std::optional<std::string> unusedOption(const FactorizeOptions& options) {
+    if (options.method == "auto") return {};
+    for (const SpecialOption& option : specialOptions(options))
+        if (option.isSet && !option.isUsedBy(options.method)) return option.complaint(options.method);
+    return {};
+}
+
 FactoredBrdf factorize(const Reflectance& r, const FactorizeOptions& options) {
     checkOptions(options);
-    const std::vector<std::string> methods =
-        options.method == "auto" ? suitable(r) : std::vector<std::string>{options.method};
+    const std::vector<std::string> methods = methodsFor(r, options);
     if (options.size != 0) {
         const Candidate c = ofSize(methods.front(), options);
         if (options.maxBytes && bytesOf(c, options) > *options.maxBytes)

@@ -90,6 +90,16 @@ TEST(CommandModels, ListsNamesRangesAndDefaults) {
     EXPECT_GE(json::parse(nacre({"methods", "--json"}).out).size(), 1u);
 }
 
+TEST(CommandFactorize, OptionThatTheMethodLacksIsWrongUsage) {
+    const Scratch scratch;
+    expectFailure(nacre(bake(scratch / "a.exr", {"--method", "single-lobe", "--parametrization", "in_out"})), 2,
+                  {"--parametrization: only svd takes it, found method single-lobe"});
+    expectFailure(nacre(bake(scratch / "a.exr", {"--method", "cosine", "--terms", "2"})), 2,
+                  {"--terms: only fit and svd take it, found method cosine"});
+    expectFailure(nacre(bake(scratch / "a.exr", {"--parametrization", "in_out"})), 2, {"only svd takes it", "auto"});
+    EXPECT_EQ(scratch.fileCount(), 0u);
+}
+
 TEST(CommandFactorize, JsonHasWhatTheDocumentationNames) {
     const Scratch scratch;
     const Outcome outcome = nacre(bake(scratch / "a.exr", {"--json"}));
@@ -121,8 +131,11 @@ TEST(CommandFactorize, BudgetThatCannotBeMetFails) {
     const Scratch scratch;
     expectFailure(nacre(bake(scratch / "a.exr", {"--size", "64", "--max-bytes", "100"})), 1, {"at most 100 bytes"});
     expectFailure(nacre(bake(scratch / "a.exr", {"--size", "8", "--max-error", "1e-9"})), 1, {"l2_rel <= 1e-09"});
-    const Outcome outcome = nacre(bake(scratch / "a.exr", {"--max-bytes", "1", "--max-error", "1e-9"}));
-    EXPECT_EQ(outcome.code, 1) << outcome.err;
+    expectFailure(nacre(bake(scratch / "a.exr", {"--max-bytes", "1", "--max-error", "1e-9"})), 1,
+                  {"the smallest takes at least"});
+    expectFailure(nacre(bake(scratch / "a.exr", {"--max-bytes", "9000", "--max-error", "1e-9"})), 1,
+                  {"nearest tried: ", "with error"});
+    expectFailure(nacre(bake(scratch / "a.exr", {"--max-fetches", "0"})), 2, {"--max-fetches", "1 to 64"});
     EXPECT_EQ(scratch.fileCount(), 0u);
 }
 
