@@ -90,6 +90,25 @@ TEST(CommandModels, ListsNamesRangesAndDefaults) {
     EXPECT_GE(json::parse(nacre({"methods", "--json"}).out).size(), 1u);
 }
 
+TEST(CommandModels, ListingsFitAHundredColumns) {
+    for (const char* verb : {"models", "methods"}) {
+        std::istringstream lines(nacre({verb}).out);
+        for (std::string line; std::getline(lines, line);) {
+            const auto starts = std::count_if(line.begin(), line.end(), [](char c) { return (c & 0xc0) != 0x80; });
+            EXPECT_LE(starts, 100) << line;
+        }
+    }
+    EXPECT_THAT(nacre({"models", "sgd"}).out, HasSubstr("; default gold-paint\n")) << "a range longer than a line";
+}
+
+TEST(CommandFactorize, OutputThatIsNoExrIsWrongUsage) {
+    const Scratch scratch;
+    expectFailure(nacre(bake(scratch / "x.png")), 2, {"x.png: expected a name that ends in .exr, found .png"});
+    expectFailure(nacre(bake(scratch / "x")), 2, {"expected a name that ends in .exr, found no ending"});
+    EXPECT_EQ(scratch.fileCount(), 0u);
+    EXPECT_EQ(nacre(bake(scratch / "x.EXR")).code, 0);
+}
+
 TEST(CommandFactorize, OptionThatTheMethodLacksIsWrongUsage) {
     const Scratch scratch;
     expectFailure(nacre(bake(scratch / "a.exr", {"--method", "single-lobe", "--parametrization", "in_out"})), 2,
