@@ -93,7 +93,7 @@ std::optional<Baked> bake(const Material& material, const OpenMaterial& opened, 
     for (const AssetTexture& t : out.brdf.textures) m.channels = std::max(m.channels, t.image.channels());
     m.error = measureBrdf(
         functionOf(out.brdf), opened.truth,
-        {.samples = samples, .isotropic = opened.reflectance.isotropic});
+        {.samples = samples, .isotropic = opened.reflectance.isotropic, .truthEnergy = opened.reflectance.energy});
     return out;
 }
 

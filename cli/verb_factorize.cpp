@@ -132,6 +132,7 @@ static void runFactorize(const Context& context, Settings& s) {
     BrdfMetricOptions metric;
     metric.isotropic = reflectance.isotropic;
     metric.threads = s.options.threads;
+    metric.truthEnergy = reflectance.energy;
     s.options.format = texelFormatFromString(s.format);
     s.options.progress = terminalProgress(context.quiet);
     s.options.measure = budgetMeasure(truth, metric);
@@ -156,6 +157,11 @@ static void runFactorize(const Context& context, Settings& s) {
     if (!(error.l2Rel < 1) || error.negative > 0)
         tell(fmt::format("{}: a poor fit: l2_rel {:.3g} (black scores 1), {} of {} samples negative", s.output,
                          error.l2Rel, error.negative, error.samples));
+    if (std::abs(error.energySeen - 1) > kEnergyTolerance)  // false for NaN: nobody counted
+        tell(fmt::format(
+            "{}: the errors were measured at {} pairs that see {:.3g} % of the energy of {}: a spike of few "
+            "cells lies between them, and the errors do not speak of it",
+            s.output, error.samples, 100 * error.energySeen, s.source));
     putData(s.asJson ? meta.dump(2) + "\n" : summaryText(s.output, meta));
 }
 

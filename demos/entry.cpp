@@ -63,7 +63,7 @@ Baked bakeAndMeasure(const Recipe& recipe, const Reflectance& truth, const Entry
     f.bytes = made.bytes();
     f.fetches = made.fetches;
     f.error = measureBrdf(functionOf(baked.brdf), truth.f,
-                          {.samples = options.samples, .isotropic = truth.isotropic});
+                          {.samples = options.samples, .isotropic = truth.isotropic, .truthEnergy = truth.energy});
     return baked;
 }
 

@@ -38,7 +38,8 @@ nlohmann::json shotJson(const Entry& e, const Shot& shot) {
 
 nlohmann::json errorJson(const Entry& e) {
     const nlohmann::json error = toJson(e.asset.error);
-    for (const auto& [key, value] : error.items()) finite(e, key.c_str(), value.get<double>());
+    for (const auto& [key, value] : error.items())
+        if (key != "energy_seen") finite(e, key.c_str(), value.get<double>());  // that one has no value for formulas
     return error;
 }
 

@@ -171,6 +171,36 @@ TEST(CommandFactorize, MissingAndBrokenSources) {
     EXPECT_EQ(scratch.fileCount(), 2u);
 }
 
+/// A MERL table: 0.1 in red everywhere, less in the others, and `peak` times that in one cell.
+std::filesystem::path merlTable(const Scratch& scratch, double peak) {
+    constexpr std::size_t kCells = 90 * 90 * 180, kSpike = (30 * 90 + 20) * 180 + 50;
+    std::vector<double> cells(kCells, 150);
+    cells[kSpike] *= peak;
+    std::ofstream file(scratch / "spike.binary", std::ios::binary);
+    const std::int32_t sizes[3] = {90, 90, 180};
+    file.write(reinterpret_cast<const char*>(sizes), sizeof sizes);
+    for (int channel = 0; channel < 3; ++channel)
+        file.write(reinterpret_cast<const char*>(cells.data()), kCells * sizeof(double));
+    return scratch / "spike.binary";
+}
+
+TEST(CommandFactorize, SpikeThatNoMeasurementSeesIsSaid) {
+    const Scratch scratch;
+    const std::vector<std::string> words = {"factorize", merlTable(scratch, 1e5).string(),
+                                            "-o",        (scratch / "a.exr").string(),
+                                            "--method",  "fit",
+                                            "--size",    "16",
+                                            "--json"};
+    const Outcome spiked = nacre(words);
+    ASSERT_EQ(spiked.code, 0) << spiked.err;
+    EXPECT_THAT(spiked.err, AllOf(HasSubstr("% of the energy of"), HasSubstr("spike.binary")));
+    EXPECT_GT(std::abs(json::parse(spiked.out)["error"]["energy_seen"].get<double>() - 1), 0.2);
+    merlTable(scratch, 1);
+    const Outcome even = nacre(words);
+    EXPECT_THAT(even.err, Not(HasSubstr("energy")));
+    EXPECT_NEAR(json::parse(even.out)["error"]["energy_seen"].get<double>(), 1, 0.02);
+}
+
 TEST(CommandFullDisk, DevFullAsOutput) {
     expectFailure(nacre({"factorize", "lambert", "-o", "/dev/full"}), 1, {"/dev/full", "can't write"});
     EXPECT_TRUE(std::filesystem::is_character_file("/dev/full"));
