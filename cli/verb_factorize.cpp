@@ -194,7 +194,7 @@ Verb factorizeVerb(Context& context) {
         {"--method", "NAME", "Factorization (default auto)", into(o.method), false, methodNames()},
         {"--size", "N", "Edge of the largest texture, 2 to 4096", integerInto(size, 2, 4096)},
         {"--terms", "K", "Terms of the svd, harmonics of the fit, 1 to 3", integerInto(terms, 1, 3)},
-        {"--parametrization", "NAME", "Of the svd", into(o.parametrization), false, {"half_diff", "in_out"}},
+        {"--parametrization", "NAME", "Of svd", into(o.parametrization), false, {"half_diff", "in_out", "symmetric"}},
         {"--format", "NAME", "Storage (default half)", into(s->format), false, {"half", "float", "unorm8"}},
         {"--max-error", "E", "Budget: largest l2_rel", positiveInto([&o](double v) { o.maxError = v; })},
         {"--max-bytes", "B", "Budget: bytes of all textures",

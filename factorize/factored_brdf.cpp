@@ -24,7 +24,8 @@ std::size_t texturesNeeded(const FactoredBrdf& b) {
         case FactoredForm::Homomorphic:
             return 1u + (b.params[0].w > 0.5f) + (b.params[1].z > 0.5f);
         case FactoredForm::Separable:
-            return 2u * static_cast<std::size_t>(std::clamp(b.params[0].x, 1.0f, 2.0f));
+            return (static_cast<int>(b.params[0].y) == int(SeparableArguments::Symmetric) ? 1u : 2u) *
+                   static_cast<std::size_t>(std::clamp(b.params[0].x, 1.0f, 2.0f));
     }
     return 1;
 }

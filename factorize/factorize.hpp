@@ -17,7 +17,7 @@ struct FactorizeOptions {
     std::string method = "auto";    ///< a name from factorizeMethods(), or auto
     int size = 0;                   ///< edge of the largest texture [texels], 2..4096; 0 = the method's own choice
     int terms = 0;                  ///< svd and fit only: SVD terms 1..2, harmonics 1..3; 0 = the method's own choice
-    std::string parametrization{};  ///< svd only: half_diff (default) or in_out
+    std::string parametrization{};  ///< svd only: half_diff (default), in_out or symmetric
     TexelFormat format = TexelFormat::Half;
     std::optional<double> maxError{};       ///< bound on `measure`
     std::optional<std::size_t> maxBytes{};  ///< of all textures
