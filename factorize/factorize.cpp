@@ -4,6 +4,7 @@
 
 #include "core/error.hpp"
 #include "factorize/budget_search.hpp"
+#include "factorize/fit_samples.hpp"
 #include "factorize/methods.hpp"
 
 namespace nacre {
@@ -21,7 +22,11 @@ FactoredBrdf bake(const Reflectance& r, const Candidate& c, const FactorizeOptio
     if (c.method == "analytic") return factorizeAnalytic(r, c.sizes, options);
     if (c.method == "fit") return factorizeFit(r, c.layout, c.sizes, options);
     if (c.method == "homomorphic") return factorizeHomomorphic(r, c.sizes, options);
-    if (c.method == "svd") return factorizeSeparable(r, c.sizes, options);
+    if (c.method == "svd") {
+        FactorizeOptions own = options;
+        if (options.method == "auto" && own.parametrization.empty()) own.parametrization = "symmetric";  // see suitable
+        return factorizeSeparable(r, c.sizes, own);
+    }
     if (c.method == "single-lobe") return factorizeSingleLobe(r, c.sizes, options);
     return factorizeTangent(r, c.sizes, options);
 }
@@ -53,7 +58,7 @@ std::vector<Candidate> ladder(const std::string& method) {
         add(square(96, 48));
         add(square(128, 64));
     } else if (method == "svd") {
-        for (int edge : {16, 24, 32, 48}) add(square(edge, edge));
+        for (int edge : {16, 24, 32, 48, 64}) add(square(edge, edge));
     } else {
         for (int edge : {32, 64, 128, 256, 512}) add(square(edge, edge));
     }
@@ -80,8 +85,9 @@ Candidate ofSize(const std::string& method, const FactorizeOptions& options) {
 }
 
 /// Methods that fit the input, best first. `analytic` and the special forms are exact but for interpolation; `fit`
-/// takes any isotropic input; `homomorphic` everything.
-std::vector<std::string> suitable(const Reflectance& r) {
+/// takes any isotropic input; `homomorphic` everything, but relief seen in two colours is a sum of products, which
+/// `svd` over (wi, wo) follows: where neither is known to fit, both are tried.
+std::vector<std::string> suitable(const Reflectance& r, const FactorizeOptions& options) {
     std::vector<std::string> out;
     if (r.tangent) out.push_back("tangent");
     if (r.singleLobe) out.push_back("single-lobe");
@@ -91,6 +97,7 @@ std::vector<std::string> suitable(const Reflectance& r) {
         out.push_back("fit");
     else
         out.push_back("homomorphic");
+    if (!r.isotropic && !r.microfacet && options.terms <= 2 && options.size <= kLargestSeparable) out.push_back("svd");
     return out;
 }
 
@@ -115,6 +122,9 @@ std::size_t bytesOf(const Candidate& c, const FactorizeOptions& options) {
         return unit * (4 * first + secondChannels * second);
     }
     if (c.method == "analytic" || c.method == "cosine") return unit * (first + second);
+    const bool symmetric =
+        options.parametrization.empty() ? options.method == "auto" : options.parametrization == "symmetric";
+    if (c.method == "svd") return unit * first * (options.terms == 1 ? 1 : 2) * (symmetric ? 4 : 6);
     return unit * first;
 }
 
@@ -127,6 +137,31 @@ bool withTerms(Candidate& c, const FactorizeOptions& options) {
     return true;
 }
 
+/// √(0.3 E_log² + E_L2²) below 80°, the loss of the fits.
+double lossOf(const FactoredBrdf& brdf, const Reflectance& r, unsigned threads) {
+    FitSampleOptions sampling{40000, glm::dvec2(lobeHalfWidth(r.f)), r.isotropic, 80 * kPi / 180, threads};
+    constexpr double kEpsilon = 1e-3;
+    double gap = 0, square = 0, logGap = 0, measure = 0;
+    for (const FitSample& s : fitSamples(r.f, sampling)) {
+        const Rgb f = glm::max(evaluate(brdf, s.wi, s.wo), Rgb(0)), truth(s.value);
+        const Rgb d = f - truth, l = glm::log((f + kEpsilon) / (truth + kEpsilon));
+        gap += s.measure * glm::dot(d, d);
+        square += s.measure * glm::dot(truth, truth);
+        logGap += s.measure * glm::dot(l, l);
+        measure += 3.0 * s.measure;
+    }
+    return std::sqrt(0.3 * logGap / measure + gap / std::max(square, 1e-30));
+}
+
+/// The one nearer to the truth; a later one, with more fetches, must be nearer by a fifth.
+FactoredBrdf nearest(std::vector<FactoredBrdf> baked, const Reflectance& r, const FactorizeOptions& options) {
+    constexpr double kWorthAFetch = 0.8;
+    std::size_t best = 0;
+    for (std::size_t i = 1; i < baked.size(); ++i)
+        if (lossOf(baked[i], r, options.threads) < kWorthAFetch * lossOf(baked[best], r, options.threads)) best = i;
+    return std::move(baked[best]);
+}
+
 FactoredBrdf withinBudget(const Reflectance& r, const std::vector<std::string>& methods,
                           const FactorizeOptions& options) {
     std::vector<BudgetCandidate> candidates;
@@ -136,6 +171,20 @@ FactoredBrdf withinBudget(const Reflectance& r, const std::vector<std::string>& 
                 candidates.push_back({fmt::format("{} {}", c.method, static_cast<int>(c.layout)), bytesOf(c, options),
                                       fetchesOf(c, options, r), [&r, &options, c] { return bake(r, c, options); }});
     return searchBudget(r.source, std::move(candidates), options);
+}
+
+/// Each method's largest within bytes and fetches, and the nearest of those.
+FactoredBrdf nearestWithinBudget(const Reflectance& r, const std::vector<std::string>& methods,
+                                 const FactorizeOptions& options) {
+    std::vector<FactoredBrdf> baked;
+    for (const std::string& method : methods) {
+        try {
+            baked.push_back(withinBudget(r, {method}, options));
+        } catch (const Error&) {  // another method may be small enough
+        }
+    }
+    if (baked.empty()) return withinBudget(r, methods, options);  // says how near all of them came
+    return nearest(std::move(baked), r, options);
 }
 
 /// An option that not every method has.
@@ -159,7 +208,7 @@ std::vector<SpecialOption> specialOptions(const FactorizeOptions& o) {
 /// The method asked for; for auto those that fit the input and use every option that is set.
 std::vector<std::string> methodsFor(const Reflectance& r, const FactorizeOptions& options) {
     if (options.method != "auto") return {options.method};
-    std::vector<std::string> out = suitable(r);
+    std::vector<std::string> out = suitable(r, options);
     for (const SpecialOption& option : specialOptions(options)) {
         if (!option.isSet) continue;
         const std::string considered = fmt::format("auto, which chooses among {} here", fmt::join(out, ", "));
@@ -196,7 +245,7 @@ std::vector<FactorizeMethod> factorizeMethods() {
          "isotropic microfacet models"},
         {"fit", "logarithmic tables over half and difference angle with harmonics in the azimuth", "isotropic input"},
         {"homomorphic", "diffuse + exp(P(wi) + Q(h) + P(wo)) with Fresnel and elevations as arithmetic", "any input"},
-        {"svd", "sum of products of two textures, half/difference or in/out", "any input"},
+        {"svd", "sum of products of two textures, half/difference, in/out or symmetric", "any input"},
         {"single-lobe", "one texture with specular, diffuse and ambient terms", "phong, blinn-phong, cosine-lobe"},
         {"tangent", "one texture over the two angles to the tangent", "banks"}};
 }
@@ -211,18 +260,24 @@ std::optional<std::string> unusedOption(const FactorizeOptions& options) {
 FactoredBrdf factorize(const Reflectance& r, const FactorizeOptions& options) {
     checkOptions(options);
     const std::vector<std::string> methods = methodsFor(r, options);
-    if (options.size != 0) {
-        const Candidate c = ofSize(methods.front(), options);
+    // The methods before others are the better ones, but for svd, which auto only names where neither is known to be.
+    const bool together = methods.back() == "svd";
+    if (options.size == 0) {
+        if (options.maxError) return withinBudget(r, methods, options);
+        if (options.maxBytes || options.maxFetches)
+            return together ? nearestWithinBudget(r, methods, options) : withinBudget(r, methods, options);
+    }
+    std::vector<FactoredBrdf> baked;
+    for (const std::string& method : methods) {
+        Candidate c = options.size != 0 ? ofSize(method, options) : usual(method, r);
+        if (options.terms != 0) c.layout = ofSize(method, options).layout;
         if (options.maxBytes && bytesOf(c, options) > *options.maxBytes)
             throw Error(fmt::format("{}: expected at most {} bytes, found {} or more for size {}", r.source,
                                     *options.maxBytes, bytesOf(c, options), options.size));
-        return bake(r, c, options);
+        baked.push_back(bake(r, c, options));
+        if (!together) break;
     }
-    const bool budget = options.maxError || options.maxBytes || options.maxFetches;
-    if (budget) return withinBudget(r, methods, options);
-    Candidate c = usual(methods.front(), r);
-    if (options.terms != 0) c.layout = ofSize(c.method, options).layout;
-    return bake(r, c, options);
+    return nearest(std::move(baked), r, options);
 }
 
 }  // namespace nacre
