@@ -12,7 +12,9 @@ namespace nacre::cli {
 std::filesystem::path provisionalName(const std::string& output);
 
 /// Fails before the bake when nothing can be written there.
-/// \throws std::invalid_argument when output is empty or the source itself; nacre::Error when it can't be written
+/// \throws std::invalid_argument when output is empty or the source itself, UsageError when its name doesn't end in
+/// .exr;
+///         nacre::Error when it can't be written
 void requireWritable(const std::string& source, const std::string& output, const std::filesystem::path& provisional);
 
 /// A file that is gone when the scope is left.

@@ -5,16 +5,16 @@
 #include <memory>
 #include <optional>
 
+#include "cli/data_report.hpp"
 #include "cli/direction_lines.hpp"
 #include "cli/eval_environment.hpp"
 #include "cli/numbers.hpp"
 #include "cli/terminal.hpp"
-#include "cli/truth.hpp"
 #include "cli/verb.hpp"
 #include "core/asset.hpp"
 #include "core/error.hpp"
 #include "core/parallel.hpp"
-#include "factorize/factored_brdf.hpp"
+#include "reference/factored_metrics.hpp"
 
 namespace nacre::cli {
 
