@@ -1,4 +1,4 @@
-// nacre envmap: read, convert, write, measure what was written.
+// nacre envmap: read, prefilter or convert, write, measure what was written.
 #include <fmt/format.h>
 
 #include <charconv>
@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <memory>
 
+#include "cli/envmap_lobes.hpp"
 #include "cli/output_file.hpp"
 #include "cli/terminal.hpp"
 #include "cli/verb.hpp"
@@ -29,6 +30,7 @@ struct Settings {
     std::string source, output, sourceLayout = "auto", negative = "clamp", layout, format = "float", scale = "1",
                                 exporting;
     SourceOptions in;
+    LobeSettings lobes;
     int size = 0;  ///< 0 = as fine as the source
     double yawDeg = 0;
     bool convert = false, asJson = false;
@@ -55,11 +57,19 @@ static void tellReport(const SourceReport& r) {
     if (r.srgbDecoded) tell(fmt::format("{}: {} values taken as sRGB: no high dynamic range", r.path, r.sampleType));
 }
 
-/// The levels that are asked for. Prefiltered lobes join here.
-static EnvChain makeLevels(const Settings& s, const EnvMap& source) {
-    if (!s.convert) throw UsageError("expected what to make: --convert");
+/// The levels that are asked for, and how prefiltered ones were made.
+static LobeBake makeLevels(const Context& context, const Settings& s, const EnvMap& source) {
+    const bool filters = !s.lobes.lobe.empty();
+    if (s.convert == filters) throw UsageError("expected what to make: --convert, or --lobe NAME");
     const EnvLayout layout = s.layout.empty() ? source.layout : envLayoutFromString(s.layout);
-    return EnvChain(convertEnv(source, layout, s.size ? s.size : matchingSize(source, layout), s.in.threads));
+    const int size = s.size ? s.size : matchingSize(source, layout);
+    if (s.convert) return {EnvChain(convertEnv(source, layout, size, s.in.threads)), {}};
+    PrefilterOptions options;
+    options.threads = s.in.threads;
+    options.progress = terminalProgress(context.quiet);
+    LobeBake out = bakeLobes(s.lobes, source, layout, size, texelFormatFromString(s.format), options);
+    endProgress();
+    return out;
 }
 
 static double scaleOf(const Settings& s, const EnvChain& chain) {
@@ -101,6 +111,24 @@ static void describe(json& meta, const Context& context, const Settings& s, cons
     meta["command_line"] = context.commandLine;
 }
 
+/// One line a level.
+static std::string lobesText(const json& meta) {
+    std::string text;
+    for (std::size_t m = 0; m < meta["lobes"].size(); ++m) {
+        const json& level = meta["lobes"][m];
+        text += fmt::format("  {:>4}  {}", level["size"].get<int>(), level["lobe"].get<std::string>());
+        for (const char* key : {"exponent", "alpha", "ior"})
+            if (level.contains(key)) text += fmt::format("  {} {:.5g}", key, level[key].get<double>());
+        if (meta["error"].is_object() && meta["error"]["levels"][m].is_object()) {
+            const json& e = meta["error"]["levels"][m];
+            text += fmt::format("  rmse {:.2g}  p95 {:.2g}  max {:.2g}  filtered {:.2g}", e["rmse"].get<double>(),
+                                e["p95"].get<double>(), e["max"].get<double>(), e["filtered_rmse"].get<double>());
+        }
+        text += "\n";
+    }
+    return meta["error"].is_null() ? text + "  (--verify measures their error)\n" : text;
+}
+
 static std::string summaryText(const Settings& s, const json& meta) {
     const json& e = meta["energy"];
     std::string text = fmt::format(
@@ -109,6 +137,7 @@ static std::string summaryText(const Settings& s, const json& meta) {
         humanBytes(meta["bytes"].get<std::size_t>()), meta["seconds"].get<double>(), meta["cpu_seconds"].get<double>(),
         mean({e["in"][0], e["in"][1], e["in"][2]}), mean({e["out"][0], e["out"][1], e["out"][2]}),
         e["error"].is_number() ? e["error"].get<double>() : NAN);
+    if (meta.contains("lobes")) text += lobesText(meta);
     if (meta.contains("export"))
         text +=
             fmt::format("{}: {} levels, {}\n", meta["export"]["path"].get<std::string>(),
@@ -137,7 +166,8 @@ static void runEnvmap(const Context& context, Settings& s) {
     tellReport(environment.report);
     const double readSeconds = reading.seconds();
     const Stopwatch baking;
-    const EnvChain chain = makeLevels(s, environment.map);
+    const LobeBake bake = makeLevels(context, s, environment.map);
+    const EnvChain& chain = bake.chain;
     const double seconds = baking.seconds(), cpuSeconds = baking.cpuSeconds();
     if (!s.exporting.empty() && chain.levels[0].layout != EnvLayout::Cube)
         throw UsageError(fmt::format("--export: expected --layout cube, found {}", toString(chain.levels[0].layout)));
@@ -153,6 +183,14 @@ static void runEnvmap(const Context& context, Settings& s) {
     writeAsset(asset, provisional);
     const EnvChain written = envFromAsset(readAsset(provisional), s.output);
     asset.meta["energy"] = energyJson(environment.map, written.levels[0], s.in.threads);
+    if (!s.lobes.lobe.empty()) {
+        asset.meta["lobe"] = s.lobes.lobe;
+        asset.meta["lobes"] = bake.levels;
+        asset.meta["error"] = s.lobes.verify ? verifyLobes(s.lobes, environment.map, written, s.in.threads,
+                                                           terminalProgress(context.quiet))
+                                             : json(nullptr);
+        endProgress();
+    }
     if (!s.exporting.empty()) asset.meta["export"] = writeExport(s, chain, scale);
     writeAsset(asset, s.output);
     const json meta = readAsset(s.output).meta;
@@ -179,12 +217,17 @@ static constexpr const char* kDetails =
     "latlong).\n"
     "Conversion averages by solid angle: energy = the sum of radiance x solid angle, of the source and of the file "
     "written.\n"
+    "A prefiltered map holds at r the average of the radiance weighted by the lobe about r, so that white gives 1: "
+    "look\n"
+    "it up with the mirrored viewer (phong, ggx, beckmann), the normal (diffuse: irradiance/pi) or the refracted "
+    "viewer.\n"
+    "A chain's usual values: exponents 2^(10(1-t)+1), alphas p^2 with p(2-p) = t, t = 0 to 1.\n"
     "Half floats end at 65504: brighter texels are an error in --format half and in exports, unless --scale is given.";
 
 Verb envmapVerb(Context& context) {
     const auto s = std::make_shared<Settings>();
     const std::vector<std::string> layouts = {"latlong", "cube", "dual_paraboloid", "octahedral"};
-    Verb verb{"envmap", "Convert a radiance map: any layout in, any layout and size out", kDetails, {}, {}};
+    Verb verb{"envmap", "Prefilter a radiance map with a lobe, or convert its layout and size", kDetails, {}, {}};
     verb.options = {
         {"source", "SOURCE", "Picture, six pictures, or asset", into(s->source), true},
         {"-o,--output", "OUT.exr", "The asset to write", into(s->output), true},
@@ -223,6 +266,8 @@ Verb envmapVerb(Context& context) {
         {"--threads", "N", "0 = all cores; the same bits for any",
          integerInto([s](long long v) { s->in.threads = static_cast<unsigned>(v); }, 0, 1024)},
         {"--json", "", "One JSON object on standard output", into(s->asJson)}};
+    const std::vector<Option> lobes = lobeOptions(s->lobes);
+    verb.options.insert(verb.options.begin() + 2, lobes.begin(), lobes.end());
     verb.run = [s, &context] { runEnvmap(context, *s); };
     return verb;
 }
