@@ -21,11 +21,9 @@ enum class CubeArrangement { Strip, Row, HorizontalCross, VerticalCross };
 
 /// Which way up faces lie, and which hand their coordinates are of.
 ///   OpenExr  ImfEnvmap.h: right-handed, faces as seen from inside. In a cross F is then −Z, B is +Z.
-///   Gl       OpenGL 4.6 table 8.19, the same in Direct3D, KTX and DDS: left-handed, so that the direction (x, y, z)
-///   finds a
-///            picture that is mirrored when seen from inside a right-handed world. Directions are kept: (x, y, z) of
-///            the file is (x, y, z) of the map. Pictures from tools that mean z or x the other way need --flip or
-///            --yaw.
+///   Gl       OpenGL 4.6 table 8.19, the same in Direct3D, KTX and DDS: left-handed.
+/// Under Gl directions are kept, (x, y, z) of the file is (x, y, z) of the map, so that a photograph appears mirrored
+/// when seen from inside our right-handed world. Pictures from tools that mean z or x the other way need flip or yaw.
 enum class FaceOrientation { OpenExr, Gl };
 
 /// \throws std::invalid_argument unless the image has three channels and the arrangement's proportions

@@ -35,7 +35,8 @@ double scaleForHalf(const EnvChain& chain);
 ///         mixed layouts, Unorm8, a mapping of another length
 Asset toAsset(const EnvChain& chain, const EnvStorage& storage = {});
 
-/// \param name  what messages call the file \throws nacre::Error when it is no such asset
+/// \param name  what messages call the file
+/// \throws nacre::Error when it is no such asset
 EnvChain envFromAsset(const Asset& asset, const std::string& name);
 
 }  // namespace nacre

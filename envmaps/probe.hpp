@@ -8,10 +8,8 @@
 namespace nacre {
 
 /// Point (u, v) of the disk in [−1, 1]², v up, r² = u² + v², φ = the angle from +z, which is in the middle:
-///   Angular     φ = π r. P. Debevec, "Rendering synthetic objects into real scenes", SIGGRAPH 1998, and the light
-///   probe
-///               gallery's (u, v) = (Dx, Dy) acos(Dz) / (π √(Dx² + Dy²)); its angmap.cal says +z is backward, in the
-///               middle.
+///   Angular     φ = π r: (u, v) = (Dx, Dy) acos(Dz) / (π √(Dx² + Dy²)), from Debevec 1998's light probe gallery, whose
+///               angmap.cal has +z (backward) in the middle.
 ///   MirrorBall  r = sin(φ/2): a mirrored ball seen by a distant camera at +z that looks along −z; the middle shows the
 ///               camera. Equal-area.
 enum class ProbeKind { Angular, MirrorBall };
@@ -25,8 +23,8 @@ glm::dvec2 probePoint(ProbeKind kind, const Vec3& direction);
 std::vector<double> probeSolidAngles(ProbeKind kind, int size);
 
 /// A cube of half the probe's edge, at least 1: four times as many texels as the disk has in its middle. Each is the
-/// mean of the probe's texels at 8 × 8 points. \throws std::invalid_argument unless the image is square with three
-/// channels
+/// mean of the probe's texels at 8 × 8 points.
+/// \throws std::invalid_argument unless the image is square with three channels
 EnvMap cubeFromProbe(const Image& probe, ProbeKind kind, unsigned threads = 0);
 
 }  // namespace nacre

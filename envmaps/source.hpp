@@ -16,9 +16,10 @@ namespace nacre {
 ///   LatLong 2:1, CubeStrip 1:6, CubeRow 6:1, CubeHorizontalCross 4:3, CubeVerticalCross 3:4   (cube_layouts.hpp)
 ///   CubeFaces       six square files
 ///   Angular, MirrorBall 1:1                                                                  (probe.hpp)
-///   DualParaboloid  1:2 (front above back) or 2:1 (front left of back), Octahedral 1:1: as core/environment.hpp has
-///   them Auto            OpenEXR's envmap attribute, a nacre asset's own word, or proportions; 1:1 and 1:2 must be
-///   named
+///   DualParaboloid  1:2 (front above back) or 2:1 (front left of back)                (core/environment.hpp)
+///   Octahedral 1:1                                                                    (core/environment.hpp)
+///   Auto            OpenEXR's envmap attribute, a nacre asset's own word, or proportions
+/// 1:1 and 1:2 may be several and must be named.
 enum class SourceLayout {
     Auto,
     LatLong,

@@ -30,9 +30,11 @@ struct TexelTopology {
 };
 
 /// Counts and, as `policy` says, mends three-channel texels in place. Clamp: negative components become 0. Keep: they
-/// stay. Under both a non-finite texel becomes the mean of its finite neighbours (of up to 8 in its block, as they were
-/// in the file), or 0 when there is none. \param weights  solid angle of each texel [sr] \throws nacre::Error under
-/// Error when there is a negative or non-finite texel, naming `name`, counts and the first one
+/// stay. Under both a non-finite texel becomes the mean of its finite neighbours (of up to 8 in its block, as they
+/// were in the file), or 0 when there is none.
+/// \param weights  solid angle of each texel [sr]
+/// \throws nacre::Error under Error when there is a negative or non-finite texel, naming `name`, counts and the first
+/// one
 TexelReport checkTexels(Image& image, std::span<const double> weights, const TexelTopology& topology,
                         NegativePolicy policy, const std::string& name);
 
