@@ -42,6 +42,8 @@ Verb factorizeVerb(Context& context);
 Verb envmapVerb(Context& context);
 Verb infoVerb(Context& context);
 Verb evalVerb(Context& context);
+Verb fresnelVerb(Context& context);
+Verb shVerb(Context& context);
 
 /// The whole command but for main. \return the exit code
 int runCommand(int argc, const char* const* argv);
