@@ -8,6 +8,7 @@
 #include "cli/data_report.hpp"
 #include "cli/direction_lines.hpp"
 #include "cli/eval_environment.hpp"
+#include "cli/eval_table.hpp"
 #include "cli/numbers.hpp"
 #include "cli/terminal.hpp"
 #include "cli/verb.hpp"
@@ -55,11 +56,10 @@ static void answer(const Evaluator& evaluator, std::vector<DirectionPair>& pairs
 
 static void runEval(const Settings& s) {
     const Asset asset = readAsset(s.file);
-    if (asset.kind == "environment") {
-        if (!s.source.empty()) throw UsageError("--source: expected an asset of kind brdf, found kind environment");
-        evalEnvironment(asset, s.file, s.threads);
-        return;
-    }
+    if (asset.kind != "brdf" && !s.source.empty())
+        throw UsageError(fmt::format("--source: expected an asset of kind brdf, found kind {}", asset.kind));
+    if (asset.kind == "environment") return evalEnvironment(asset, s.file, s.threads);
+    if (isTable(asset)) return evalTable(asset, s.file);
     Evaluator evaluator{factoredFromAsset(asset, s.file), {}, s.threads};
     if (!s.source.empty()) {
         const Reflectance reflectance = openReflectance(s.source);
@@ -84,7 +84,9 @@ Verb evalVerb(Context&) {
         "f [1/sr] without the cosine; with --source r,g,b,R,G,B, where R,G,B is the unbaked truth.\n"
         "For an asset of kind environment: lines x,y,z[,alpha], a direction of any length; alpha (or the parameter "
         "that\n"
-        "the asset's level_mapping names) chooses between the levels. Answer r,g,b, the radiance a shader fetches.";
+        "the asset's level_mapping names) chooses between the levels. Answer r,g,b, the radiance a shader fetches.\n"
+        "For kind fresnel: lines cos, answer r,g,b. For kind scale_bias: lines cos,roughness (perceptual), answer "
+        "scale,bias.";
     const auto threads = [s](long long v) { s->threads = static_cast<unsigned>(v); };
     verb.options = {{"file", "FILE", "A baked asset", into(s->file), true},
                     {"--source", "SOURCE", "Model or file that the truth comes from", into(s->source)},

@@ -3,10 +3,12 @@
 
 #include <memory>
 
+#include "cli/eval_table.hpp"
 #include "cli/terminal.hpp"
 #include "cli/verb.hpp"
 #include "core/asset.hpp"
 #include "core/error.hpp"
+#include "envmaps/env_asset.hpp"
 #include "factorize/factored_brdf.hpp"
 
 namespace nacre::cli {
@@ -31,6 +33,11 @@ static std::string infoText(const std::string& path, const Asset& asset) {
     for (const AssetTexture& texture : asset.textures) out += textureText(texture);
     for (const auto& [key, value] : asset.meta.items()) {
         if (key == "textures" || key == "kind" || key == "bytes" || key == "params") continue;
+        if (value.is_array() && !value.empty() && value.front().is_object()) {  // one line an entry
+            out += key + "\n";
+            for (const json& entry : value) out += "  " + entry.dump() + "\n";
+            continue;
+        }
         if (!value.is_object()) {
             out += fmt::format("{:<22} {}\n", key, valueText(value));
             continue;
@@ -43,11 +50,17 @@ static std::string infoText(const std::string& path, const Asset& asset) {
 
 /// Says when this version can show the file but not use it: a later version's kind or form, or a damaged description.
 static void tellUnusable(const std::string& path, const Asset& asset) {
-    if (asset.kind != "brdf")
-        return tell(fmt::format("{}: this version does not know the kind '{}' (it knows brdf) and can't use the file",
-                                path, asset.kind));
+    if (isTable(asset)) return;
+    if (asset.kind != "brdf" && asset.kind != "environment")
+        return tell(
+            fmt::format("{}: this version does not know the kind '{}' (it knows brdf, environment, fresnel and "
+                        "scale_bias) and can't use the file",
+                        path, asset.kind));
     try {
-        factoredFromAsset(asset, path);
+        if (asset.kind == "brdf")
+            factoredFromAsset(asset, path);
+        else
+            envFromAsset(asset, path);
     } catch (const Error& error) {
         tell(fmt::format("{}; this version can't use the file", error.what()));
     }

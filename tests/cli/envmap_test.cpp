@@ -195,5 +195,124 @@ TEST(CommandEnvmap, FlipAndYawAreWrittenIntoTheAsset) {
                 HasSubstr("1.9"));
 }
 
+Outcome eval(const std::filesystem::path& file, const std::string& lines) {
+    return nacre({"eval", file.string()}, {lines, {}, RLIM_INFINITY, false});
+}
+
+std::vector<std::string> filter(const std::string& source, const std::filesystem::path& output,
+                                std::vector<std::string> more) {
+    std::vector<std::string> arguments = {"envmap", source, "-o", output.string(), "--layout", "cube"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return arguments;
+}
+
+TEST(CommandEnvmapLobe, ChainVerifiesItsErrorAndAnswersByAlpha) {
+    const Scratch scratch;
+    const std::string source = latlong(scratch, 40, 32);
+    const Outcome outcome =
+        nacre(filter(source, scratch / "a.exr",
+                     {"--size", "16", "--lobe", "ggx", "--chain", "4", "--verify", "--samples", "40", "--json"}));
+    ASSERT_EQ(outcome.code, 0) << outcome.err;
+    const json meta = json::parse(outcome.out);
+    EXPECT_EQ(meta["level_mapping"]["values"].size(), 4u);
+    EXPECT_EQ(meta["lobes"].size(), 4u);
+    EXPECT_EQ(meta["lobes"][0]["lobe"], "mirror");
+    EXPECT_EQ(meta["lobes"][3]["alpha"], 1);
+    EXPECT_EQ(meta["lobes"][3]["size"], 2);
+    EXPECT_LT(meta["error"]["rmse"], 2e-3);
+    EXPECT_GT(meta["error"]["rmse"], 0);
+    const Outcome answer = eval(scratch / "a.exr", "0,1,0,1\n0,-1,0,1\n");
+    ASSERT_EQ(answer.code, 0) << answer.err;
+    EXPECT_GT(std::stod(answer.out), 1.2);  // 1 + 2/3 y for a cosine lobe, and a spot
+    EXPECT_LT(std::stod(answer.out.substr(answer.out.find('\n') + 1)), 0.8);
+}
+
+TEST(CommandEnvmapLobe, WhiteGivesOneThroughTheFile) {
+    const Scratch scratch;
+    Image white(16, 8, 3);
+    for (float& v : white.data()) v = 1;
+    writeExr(white, (scratch / "white.exr").string());
+    for (const std::vector<std::string>& lobe : {std::vector<std::string>{"--lobe", "diffuse"},
+                                                 {"--lobe", "phong", "--exponent", "100"},
+                                                 {"--lobe", "ggx_refraction", "--alpha", "0.3", "--ior", "1.5"}}) {
+        ASSERT_EQ(nacre(filter((scratch / "white.exr").string(), scratch / "a.exr", lobe)).code, 0);
+        const Outcome answer = eval(scratch / "a.exr", "1,2,3\n");
+        EXPECT_NEAR(std::stod(answer.out), 1, 1e-5) << lobe[1];
+    }
+}
+
+TEST(CommandEnvmapLobe, BudgetsChooseTheSizeOrFail) {
+    const Scratch scratch;
+    const std::string source = latlong(scratch, 1, 32);
+    const Outcome cheap =
+        nacre(filter(source, scratch / "a.exr", {"--lobe", "diffuse", "--max-error", "0.02", "--json"}));
+    ASSERT_EQ(cheap.code, 0) << cheap.err;
+    EXPECT_LE(json::parse(cheap.out)["size"], 8);
+    const Outcome small =
+        nacre(filter(source, scratch / "b.exr", {"--lobe", "diffuse", "--max-bytes", "5000", "--json"}));
+    ASSERT_EQ(small.code, 0) << small.err;
+    EXPECT_EQ(json::parse(small.out)["size"], 8);  // 6 · 8² · 3 floats = 4608 bytes
+    expectFailure(nacre(filter(source, scratch / "c.exr",
+                               {"--lobe", "phong", "--exponent", "500", "--size", "4", "--max-error", "1e-5"})),
+                  1, {"expected an error", "found"});
+    EXPECT_FALSE(std::filesystem::exists(scratch / "c.exr"));
+}
+
+TEST(CommandEnvmapLobe, WrongUsageIsExitTwo) {
+    const Scratch scratch;
+    const std::string source = latlong(scratch);
+    const auto fails = [&](std::vector<std::string> more, const std::string& fragment) {
+        expectFailure(nacre(filter(source, scratch / "a.exr", std::move(more))), 2, {fragment});
+    };
+    fails({}, "--lobe");
+    fails({"--lobe", "diffuse", "--convert"}, "--convert");
+    fails({"--lobe", "gloss"}, "gloss");
+    fails({"--lobe", "phong"}, "--exponent");
+    fails({"--lobe", "phong", "--exponent", "-1"}, "--exponent");
+    fails({"--lobe", "ggx"}, "--alpha");
+    fails({"--lobe", "ggx", "--alpha", "2"}, "alpha");
+    fails({"--lobe", "diffuse", "--alpha", "0.1"}, "--alpha");
+    fails({"--lobe", "ggx_refraction", "--alpha", "0.1"}, "--ior");
+    fails({"--lobe", "ggx", "--chain", "3", "--values", "0.1,0.2"}, "--values");
+    fails({"--lobe", "ggx", "--chain", "3", "--values", "0.1,0.2,0.1"}, "strictly");
+    EXPECT_FALSE(std::filesystem::exists(scratch / "a.exr"));
+}
+
+TEST(CommandFresnel, TablesCarryTheirErrorAndAnswer) {
+    const Scratch scratch;
+    const std::string file = (scratch / "f.exr").string();
+    const Outcome outcome = nacre({"fresnel", "-o", file, "--eta", "1.5", "--json"});
+    ASSERT_EQ(outcome.code, 0) << outcome.err;
+    EXPECT_LT(json::parse(outcome.out)["error"]["max_abs"], 5e-4);
+    EXPECT_NEAR(std::stod(eval(file, "1\n").out), 0.04, 1e-4);
+    expectFailure(eval(file, "2\n"), 1, {"line 1", "[0, 1]"});
+    const json small = json::parse(nacre({"fresnel", "-o", file, "--max-error", "0.01", "--json"}).out);
+    EXPECT_LE(small["error"]["max_abs"], 0.01);
+    EXPECT_LE(small["size"], 32);
+    expectFailure(nacre({"fresnel", "-o", file, "--max-error", "1e-9"}), 1, {"expected an error"});
+    expectFailure(nacre({"fresnel", "-o", file, "--eta", "0"}), 2, {"eta"});
+    expectFailure(nacre({"fresnel", "-o", file, "--eta", "a/b"}), 2, {"--eta"});
+    const json rough = json::parse(nacre({"fresnel", "-o", file, "--scale-bias", "--json"}).out);
+    EXPECT_EQ(rough["kind"], "scale_bias");
+    EXPECT_LT(rough["error"]["max_abs"], 5e-3);
+    EXPECT_THAT(eval(file, "1,0\n").out, HasSubstr(","));
+    EXPECT_THAT(nacre({"info", file}).err, IsEmpty());
+}
+
+TEST(CommandSh, PrintsNineCoefficients) {
+    const Scratch scratch;
+    const std::string source = latlong(scratch, 1, 64);
+    const json meta = json::parse(nacre({"sh", source, "--json"}).out);
+    ASSERT_EQ(meta["coefficients"].size(), 9u);
+    EXPECT_NEAR(meta["coefficients"][0][0], std::sqrt(4 * 3.14159265), 1e-2);      // L = 1 + y
+    EXPECT_NEAR(meta["coefficients"][1][0], std::sqrt(4 * 3.14159265 / 3), 1e-2);  // of y
+    const json diffuse = json::parse(nacre({"sh", source, "--lobe", "diffuse", "--json"}).out);
+    EXPECT_NEAR(diffuse["coefficients"][1][0].get<double>(), meta["coefficients"][1][0].get<double>() * 2 / 3, 1e-6);
+    const std::string lines = nacre({"sh", source, "--order", "1"}).out;
+    EXPECT_EQ(std::count(lines.begin(), lines.end(), '\n'), 4);
+    expectFailure(nacre({"sh", (scratch / "none.exr").string()}), 1, {"none.exr"});
+    expectFailure(nacre({"sh", source, "--order", "2000"}), 2, {"--order"});
+}
+
 }  // namespace
 }  // namespace nacre
