@@ -19,6 +19,7 @@ constexpr int kProbedOrder = 800;   // coefficients that say whether kLargestOrd
 
 constexpr double kWide = 0.3;  // a kernel this wide that has no end of harmonics is cut off sharply (Phong 0): its sum
 constexpr int kEdgeOrder = 256;         // over texels jumps as each of them sets, and no order follows that
+constexpr double kOffCentre = 1e-6;     // of all light: what a block of merged texels may have beside its middle
 constexpr double kUnseen = 1e-9;        // a sum of weights below this share of the lobe saw no texel's centre
 constexpr double kSpectrumShare = 0.2;  // of the tolerance, for the harmonics that a map turns out not to need
 
@@ -200,7 +201,7 @@ void analyse(const EnvMap& source, const std::vector<Plan>& plans, const Prefilt
         radius = std::max(radius, plan.radius);
     }
     if (coefficients == 0 && radius == 0) return;
-    basis.points = blockPoints(source, affordableBlock(source, plans, options.tolerance), options.threads);
+    basis.points = blockPoints(source, affordableBlock(source, plans, options.tolerance), kOffCentre, options.threads);
     for (SpherePoint& p : basis.points) p.weight.w *= basis.brightness;
     if (coefficients > 0)
         basis.harmonics = analyseHarmonics(basis.points, static_cast<int>(coefficients) - 1, options.threads);

@@ -12,8 +12,10 @@ namespace nacre {
 /// paraboloids are left out.
 std::vector<SpherePoint> texelPoints(const EnvMap& map, unsigned threads = 0);
 
-/// One point for every block × block texels, at the middle of their solid angles. `block` divides the map's size.
-std::vector<SpherePoint> blockPoints(const EnvMap& map, int block, unsigned threads = 0);
+/// One point for every block × block texels, at the middle of their solid angles, but single texels where a block's
+/// light is off its middle: where |Σ w_i (d_i − middle)| of the light w = Ω (|r| + |g| + |b|) is more than
+/// `offCentre` of all the light. `block` divides the map's size.
+std::vector<SpherePoint> blockPoints(const EnvMap& map, int block, double offCentre, unsigned threads = 0);
 
 /// Every texel's direction, row by row.
 std::vector<Vec3> texelDirections(EnvLayout layout, int size, unsigned threads = 0);

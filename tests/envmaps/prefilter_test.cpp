@@ -153,6 +153,14 @@ TEST(Prefilter, SunAtCornerSeamAndPoleIsAsBrightAsElsewhere) {
         }
 }
 
+TEST(Prefilter, LampsInMergedTexelsKeepTheirPlace) {
+    // Diffuse light merges 4 × 4 texels of a map of this size; a lamp of one texel is not to move to their middle.
+    const EnvMap source = oneTexel(EnvLayout::Cube, 256, {0.2, 1, 0.1}, 3e4, 0.01);
+    const EnvironmentTruth truth(source);
+    EXPECT_LT(measureEnvironment(filterOne(source, {LobeKind::Diffuse}, 32), truth, {LobeKind::Diffuse}, 30).rmse,
+              1e-3);
+}
+
 TEST(Prefilter, ExponentOfAMillionIsTheNearestTexel) {
     const EnvMap source = roughMap(EnvLayout::Cube, 16);
     const EnvMap out = filterOne(source, {LobeKind::Phong, 1e6}, 16),
