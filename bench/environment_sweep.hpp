@@ -12,6 +12,8 @@
 
 namespace nacre::bench {
 
+class EnvironmentGpu;
+
 enum class Chain { Phong, Ggx, Diffuse };
 inline constexpr Chain kChains[] = {Chain::Phong, Chain::Ggx, Chain::Diffuse};
 std::string toString(Chain chain);
@@ -64,7 +66,8 @@ EnvironmentMeasurement measureImportance(const ChainTruth& truth, int count, boo
 EnvironmentMeasurement measureReducedSums(const ChainTruth& truth, int reducedSize);
 
 struct EnvironmentSweepOptions {
-    bool quick = false;  ///< one size and the synthetic surrounding alone
+    bool quick = false;             ///< one size and the synthetic surrounding alone
+    EnvironmentGpu* gpu = nullptr;  ///< null: no OpenGL, no curve of it
     Progress progress{};
 };
 /// Every method at every setting on every chain and size.

@@ -11,6 +11,7 @@
 #include <thread>
 
 #include "bench/environment_bars.hpp"
+#include "bench/environment_gpu.hpp"
 #include "bench/report.hpp"
 #include "core/error.hpp"
 #include "core/file.hpp"
@@ -50,12 +51,14 @@ Progress progressOn(bool quiet) {
     };
 }
 
-std::optional<GpuLab> openLab(const Arguments& arguments, std::vector<std::string>& notes) {
+/// What needs OpenGL, or nothing and a note.
+template <class Gpu, class... Options>
+std::optional<Gpu> openGpu(const Arguments& arguments, std::vector<std::string>& notes, Options... options) {
     if (arguments.noGpu) return std::nullopt;
     try {
-        return std::optional<GpuLab>(std::in_place, arguments.quick ? 5 : 11);
+        return std::optional<Gpu>(std::in_place, options...);
     } catch (const Error& error) {
-        notes.push_back(std::string("No OpenGL, so no frame times: ") + error.what());
+        notes.push_back(std::string("No OpenGL, so nothing of it is measured: ") + error.what());
         return std::nullopt;
     }
 }
@@ -108,7 +111,7 @@ bool wants(const Arguments& arguments, const std::string& technique) {
 
 void runFactored(const Arguments& arguments, const MaterialList& list, const Progress& progress, Report& report) {
     report.notes.insert(report.notes.end(), list.notes.begin(), list.notes.end());
-    std::optional<GpuLab> lab = openLab(arguments, report.notes);
+    std::optional<GpuLab> lab = openGpu<GpuLab>(arguments, report.notes, arguments.quick ? 5 : 11);
     GpuLab* const gpu = lab ? &*lab : nullptr;
     if (lab) report.renderer = lab->description();
     if (!arguments.noBars) report.bars = measureBars(list.materials, gpu, {.progress = progress}, &report.measurements);
@@ -128,7 +131,10 @@ void runEnvironment(const Arguments& arguments, const Progress& progress, Report
         report.bars.insert(report.bars.end(), bars.begin(), bars.end());
     }
     if (arguments.barsOnly) return;
-    for (EnvironmentMeasurement& m : sweepEnvironments(list.surroundings, {arguments.quick, progress}))
+    std::optional<EnvironmentGpu> gpu = openGpu<EnvironmentGpu>(arguments, report.notes);
+    if (gpu && report.renderer.empty()) report.renderer = gpu->description();
+    for (EnvironmentMeasurement& m :
+         sweepEnvironments(list.surroundings, {arguments.quick, gpu ? &*gpu : nullptr, progress}))
         report.environments.push_back(std::move(m));
 }
 

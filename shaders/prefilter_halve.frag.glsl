@@ -4,4 +4,4 @@
 
 out vec4 color;
 
-void main() { color = vec4(nacre_prefilter_halved(nacre_prefilter_strip, ivec2(gl_FragCoord.xy), nacre_prefilter_edge), 1.0); }
+void main() { color = nacre_prefilter_halved(nacre_prefilter_strip, ivec2(gl_FragCoord.xy), nacre_prefilter_edge); }

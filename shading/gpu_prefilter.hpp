@@ -13,8 +13,8 @@
 namespace nacre {
 
 struct GpuPrefilterOptions {
-    /// Source texels a width of the lobe, and as many an angle farther out: the error falls with its square, the cost
-    /// grows with it. 8 holds 0.3 % of the mean (rmse) on maps without a sun.
+    /// Source texels a width of the lobe, and as many an angle farther out. The error falls with its square or faster
+    /// and the cost grows with its square: 8 holds 0.1 % of the mean (rmse) against the baker, 16 holds 0.03 %.
     double detail = 8;
     /// Of the result. Half floats filter everywhere, but drivers may truncate them.
     ColorFormat color = ColorFormat::Rgba16F;

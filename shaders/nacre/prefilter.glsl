@@ -40,6 +40,17 @@ float nacre_prefilter_solid_angle(vec2 st, float h) {
     return h * h * inverse * sqrt(inverse) * (1.0 + h * h / 24.0 * inverse * (9.0 - 15.0 * inverse));
 }
 
+// Where in its texel the light is, from (0, 0) to (1, 1), in one number that a float holds exactly: a lamp smaller than
+// a coarse texel is summed from its own direction, not from the texel's middle.
+float nacre_prefilter_pack(vec2 place) {
+    vec2 steps = floor(clamp(place, 0.0, 1.0) * 4094.0 + 0.5);  // 4094: the middle is a step
+    return steps.x * 4096.0 + steps.y;
+}
+vec2 nacre_prefilter_unpack(float packed_place) {
+    float x = floor(packed_place / 4096.0);
+    return vec2(x, packed_place - x * 4096.0) / 4094.0;
+}
+
 // Lobes by the squared chord c = |r - l|^2 between axis and light, which keeps what 1 - cos loses near the axis. Twin:
 // zonalKernel (envmaps/lobes.hpp).
 float nacre_prefilter_cosine(float c) { return max(0.0, 1.0 - 0.5 * c); }
@@ -130,13 +141,15 @@ vec4 nacre_prefilter_face(sampler2D strip, NacrePrefilterPlan plan, vec3 r, int 
     vec4 sum = vec4(0.0);
     for (int y = low.y; y <= high.y; ++y)
         for (int x = low.x; x <= high.x; ++x) {
-            vec2 st = (vec2(x, y) + 0.5) * h - 1.0;
+            vec4 texel = texelFetch(strip, ivec2(x, y + face * edge), level);
+            vec2 st = (vec2(x, y) + nacre_prefilter_unpack(texel.a)) * h - 1.0;
             vec3 gap = vec3(st, 1.0) * inversesqrt(1.0 + dot(st, st)) - q;
             float c = dot(gap, gap);
             if (c > reach * reach) continue;
+            st = (vec2(x, y) + 0.5) * h - 1.0;
             float weight = nacre_prefilter_lobe(c, plan.parameter) * nacre_prefilter_share(plan, c, level) *
                            nacre_prefilter_solid_angle(st, h);
-            sum += weight * vec4(texelFetch(strip, ivec2(x, y + face * edge), level).rgb, 1.0);
+            sum += weight * vec4(texel.rgb, 1.0);
         }
     return sum;
 }
@@ -148,17 +161,24 @@ vec4 nacre_prefilter_sum(sampler2D strip, NacrePrefilterPlan plan, vec3 r) {
     return sum;
 }
 
-// A texel of the next coarser level: four of the level that `strip` shows as its base, weighted by solid angle.
-vec3 nacre_prefilter_halved(sampler2D strip, ivec2 texel, int edge) {
+// A texel of the next coarser level: four of the level that `strip` shows as its base, weighted by solid angle; alpha is
+// their light's place.
+vec4 nacre_prefilter_halved(sampler2D strip, ivec2 texel, int edge) {
     vec4 sum = vec4(0.0);
+    vec3 place = vec3(0.0);  // Sum of light times (place, 1)
     int fine = 2 * edge, face = texel.y / edge;
     for (int i = 0; i < 4; ++i) {
-        ivec2 at = 2 * texel + ivec2(i - 2 * (i / 2), i / 2);
+        ivec2 child = ivec2(i - 2 * (i / 2), i / 2), at = 2 * texel + child;
         float h = 2.0 / float(fine);
         vec2 st = (vec2(at.x, at.y - face * fine) + 0.5) * h - 1.0;
-        sum += nacre_prefilter_solid_angle(st, h) * vec4(texelFetch(strip, at, 0).rgb, 1.0);
+        vec4 value = texelFetch(strip, at, 0);
+        float solidAngle = nacre_prefilter_solid_angle(st, h);
+        sum += solidAngle * vec4(value.rgb, 1.0);
+        float light = solidAngle * max(0.0, value.r + value.g + value.b);
+        place += light * vec3(0.5 * (vec2(child) + nacre_prefilter_unpack(value.a)), 1.0);
     }
-    return sum.rgb / sum.a;
+    vec2 middle = place.z > 0.0 ? place.xy / place.z : vec2(0.5);
+    return vec4(sum.rgb / sum.a, nacre_prefilter_pack(middle));
 }
 
 #endif

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "bench/environment_bars.hpp"
+#include "bench/environment_gpu.hpp"
 #include "bench/environment_naive.hpp"
 #include "bench/environment_report.hpp"
 #include "bench/report.hpp"
@@ -81,6 +82,8 @@ TEST(EnvironmentBars, OtherMethodsAndSettingsDontCount) {
 TEST(EnvironmentSweep, MethodsAgreeWithTheTruth) {
     // Of the worst level; the sharpest lobe, narrower than a texel here, sets the comparators'.
     constexpr double kPrefilter = 1e-3, kSampled = 0.12, kReduced = 0.4;  // measured 1.8e-4, 0.07, 0.28
+    constexpr double kGpu = 5e-3;
+    EnvironmentGpu gpu;
     EnvMap map(EnvLayout::LatLong, 64);
     for (int y = 0; y < 64; ++y)
         for (int x = 0; x < 128; ++x) {
@@ -93,6 +96,7 @@ TEST(EnvironmentSweep, MethodsAgreeWithTheTruth) {
         const EnvironmentMeasurement exact = measurePrefilter(truth, 6e-4);
         EXPECT_TRUE(exact.usual);
         EXPECT_LT(exact.worstRmse(), kPrefilter) << toString(chain);
+        EXPECT_LT(gpu.measure(truth, 8).worstRmse(), kGpu) << toString(chain);
         EXPECT_LT(measureImportance(truth, 4096, false).worstRmse(), kSampled) << toString(chain);
         EXPECT_LT(measureImportance(truth, 1024, true).worstRmse(), kSampled) << toString(chain);
         EXPECT_LT(measureReducedSums(truth, 16).worstRmse(), kReduced) << toString(chain);

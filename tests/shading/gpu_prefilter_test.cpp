@@ -10,10 +10,11 @@ namespace nacre {
 namespace {
 
 // Root mean square difference to nacre::prefilter over all texels, as a share of the mean, on `ripples`.
-constexpr double kAgainstBaker = 4e-3;        // detail 8
-constexpr double kAgainstBakerFine = 1.5e-3;  // detail 16
-constexpr double kKernel = 2e-5;              // single precision against double, of the lobe's largest value
-constexpr double kWhite = 2e-6;               // rounding of sums of thousands of terms
+constexpr double kAgainstBaker = 1.2e-3;    // detail 8; measured 7.8e-4
+constexpr double kAgainstBakerFine = 3e-4;  // detail 16; measured 1.2e-4
+constexpr double kSpike = 2e-3;             // all light from one texel; measured 5.4e-4
+constexpr double kKernel = 2e-5;            // single precision against double, of the lobe's largest value
+constexpr double kWhite = 2e-6;             // rounding of sums of thousands of terms
 
 /// Waves of several lengths, a lamp, and one texel that outshines all.
 EnvMap ripples(int size) {
@@ -73,16 +74,25 @@ TEST(GpuPrefilter, AgreesWithTheBaker) {
     test::context();
     const EnvMap map = ripples(64);
     for (const Lobe& lobe : kLobes) {
-        const PrefilterLevel level{lobe, 16};
+        const PrefilterLevel level{lobe, 8};
         PrefilterOptions options;
         options.tolerance = 1e-5;
         const EnvMap baked = prefilter(map, {&level, 1}, options).levels[0];
         const EnvMap usual = gpuFiltered(map, level, {.color = ColorFormat::Rgba32F});
         const EnvMap fine = gpuFiltered(map, level, {.detail = 16, .color = ColorFormat::Rgba32F});
-        std::printf("%s %g %g\n", words(lobe).c_str(), difference(usual, baked), difference(fine, baked));
         EXPECT_LT(difference(usual, baked), kAgainstBaker) << words(lobe);
         EXPECT_LT(difference(fine, baked), kAgainstBakerFine) << words(lobe);
     }
+}
+
+TEST(GpuPrefilter, RunsOnEs3) {
+    test::context(GlApi::Es3);
+    const EnvMap map = ripples(32);
+    const PrefilterLevel level{{LobeKind::Beckmann, 0, 0.3}, 8};
+    ProgramLoader loader(Glsl::Es300);
+    GpuPrefilter prefilter(loader, 32, {level}, {.color = ColorFormat::Rgba32F});
+    complete(prefilter, Uploaded(map));
+    EXPECT_LT(measureEnvironment(prefilter.read(0), EnvironmentTruth(map), level.lobe, 300).rmse, kAgainstBaker);
 }
 
 TEST(GpuPrefilter, WhiteStaysWhite) {
@@ -147,9 +157,7 @@ TEST(GpuPrefilter, BlackAndOneBrightTexel) {
     spike.image.setRgb(31, 31, Rgb(1e5));  // in a corner of +X
     const PrefilterLevel level{{LobeKind::Ggx, 0, 0.2}, 16};
     const EnvMap found = gpuFiltered(spike, level, {.color = ColorFormat::Rgba32F});
-    const double error = measureEnvironment(found, EnvironmentTruth(spike), level.lobe, 300).rmse;
-    std::printf("spike %g\n", error);
-    EXPECT_LT(error, 0.02);
+    EXPECT_LT(measureEnvironment(found, EnvironmentTruth(spike), level.lobe, 300).rmse, kSpike);
 }
 
 TEST(GpuPrefilter, RejectsWhatItCannotDo) {
@@ -190,6 +198,18 @@ TEST(PrefilterGlsl, LobesAreTheTwins) {
             ASSERT_NEAR(found[i].x, kernel.value(std::acos(std::min(1.0, pairs[i].wo.z))), kKernel)
                 << words(lobe) << " at " << pairs[i].wo.x;
     }
+}
+
+TEST(PrefilterGlsl, PlacesSurvivePacking) {
+    test::context();
+    std::vector<DirectionPair> pairs{{Vec3(0.5, 0.5, 0), Vec3(0)}, {Vec3(0, 1, 0), Vec3(0)}, {Vec3(1, 0, 0), Vec3(0)}};
+    for (int i = 0; i < 100; ++i) pairs.push_back({Vec3(i / 99.0, 1 - sqr(i / 99.0), 0), Vec3(0)});
+    const auto found = test::gpuEvaluate({"#include \"nacre/prefilter.glsl\"\nvec4 evaluate(vec3 wi, vec3 wo) {\n"
+                                          "    float one = nacre_prefilter_pack(wi.xy);\n"
+                                          "    return vec4(nacre_prefilter_unpack(one), 0.0, 0.0);\n}\n"},
+                                         pairs);
+    for (std::size_t i = 0; i < pairs.size(); ++i)
+        for (int c = 0; c < 2; ++c) ASSERT_NEAR(found[i][c], pairs[i].wi[c], i < 3 ? 1e-7 : 0.51 / 4094) << i;
 }
 
 TEST(PrefilterGlsl, StripIsTheCubeLayout) {
