@@ -175,7 +175,7 @@ std::string barTable(const std::vector<Bar>& bars) {
                            : bar.pass()  ? "PASS"
                                          : "MISS",
                            bar.what, bar.figure, bar.value, bar.atLeast ? ">=" : "<=", bar.limit,
-                           bar.measured ? "(" + bar.worst + ")" : "(no material at hand)");
+                           bar.measured ? "(" + bar.worst + ")" : "(nothing measured)");
     return out;
 }
 

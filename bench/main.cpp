@@ -1,4 +1,4 @@
-// nacre_bench: bakes every material with every method, measures error, bytes, bake time and frame time, and writes the
+// nacre_bench: bakes every material and every surrounding with every method, measures error and cost, and writes the
 // report.
 #include <fmt/format.h>
 #include <unistd.h>
@@ -10,6 +10,8 @@
 #include <optional>
 #include <thread>
 
+#include "bench/environment_bars.hpp"
+#include "bench/environment_gpu.hpp"
 #include "bench/report.hpp"
 #include "core/error.hpp"
 #include "core/file.hpp"
@@ -22,7 +24,7 @@ namespace fs = std::filesystem;
 
 struct Arguments {
     std::string out = "build/bench", shared;
-    std::vector<std::string> materials;
+    std::vector<std::string> materials, techniques = {"factored", "environment"};
     bool quick = false, barsOnly = false, noBars = false, noGpu = false, quiet = false, list = false;
 };
 
@@ -49,12 +51,14 @@ Progress progressOn(bool quiet) {
     };
 }
 
-std::optional<GpuLab> openLab(const Arguments& arguments, std::vector<std::string>& notes) {
+/// What needs OpenGL, or nothing and a note.
+template <class Gpu, class... Options>
+std::optional<Gpu> openGpu(const Arguments& arguments, std::vector<std::string>& notes, Options... options) {
     if (arguments.noGpu) return std::nullopt;
     try {
-        return std::optional<GpuLab>(std::in_place, arguments.quick ? 5 : 11);
+        return std::optional<Gpu>(std::in_place, options...);
     } catch (const Error& error) {
-        notes.push_back(std::string("No OpenGL, so no frame times: ") + error.what());
+        notes.push_back(std::string("No OpenGL, so nothing of it is measured: ") + error.what());
         return std::nullopt;
     }
 }
@@ -100,6 +104,40 @@ void writeReport(const Report& report, const fs::path& folder) {
     writeFile(folder / "index.html", reportPage(report));
 }
 
+bool wants(const Arguments& arguments, const std::string& technique) {
+    const std::vector<std::string>& list = arguments.techniques;
+    return std::find(list.begin(), list.end(), technique) != list.end();
+}
+
+void runFactored(const Arguments& arguments, const MaterialList& list, const Progress& progress, Report& report) {
+    report.notes.insert(report.notes.end(), list.notes.begin(), list.notes.end());
+    std::optional<GpuLab> lab = openGpu<GpuLab>(arguments, report.notes, arguments.quick ? 5 : 11);
+    GpuLab* const gpu = lab ? &*lab : nullptr;
+    if (lab) report.renderer = lab->description();
+    if (!arguments.noBars) report.bars = measureBars(list.materials, gpu, {.progress = progress}, &report.measurements);
+    if (arguments.barsOnly) return;
+    for (const Material& m : list.materials) sweep(m, arguments.quick, gpu, progress, report.measurements);
+}
+
+/// A quick run's bars: the 256 source alone, fewer samples.
+void runEnvironment(const Arguments& arguments, const Progress& progress, Report& report) {
+    const SurroundingList list = benchSurroundings();
+    report.notes.insert(report.notes.end(), list.notes.begin(), list.notes.end());
+    if (!arguments.noBars) {
+        EnvironmentBarOptions options;
+        options.progress = progress;
+        if (arguments.quick) options.samples = 40, options.large = false;
+        const std::vector<Bar> bars = measureEnvironmentBars(list.surroundings, options, &report.environments);
+        report.bars.insert(report.bars.end(), bars.begin(), bars.end());
+    }
+    if (arguments.barsOnly) return;
+    std::optional<EnvironmentGpu> gpu = openGpu<EnvironmentGpu>(arguments, report.notes);
+    if (gpu && report.renderer.empty()) report.renderer = gpu->description();
+    for (EnvironmentMeasurement& m :
+         sweepEnvironments(list.surroundings, {arguments.quick, gpu ? &*gpu : nullptr, progress}))
+        report.environments.push_back(std::move(m));
+}
+
 int run(const Arguments& arguments) {
     const auto start = std::chrono::steady_clock::now();
     const Progress progress = progressOn(arguments.quiet);
@@ -107,30 +145,27 @@ int run(const Arguments& arguments) {
     report.version = nacreVersion();
     report.machine = machineWords();
     report.quick = arguments.quick;
-    const MaterialList list = benchMaterials({.shared = arguments.shared,
-                                              .cache = fs::path(arguments.out) / "merl",
-                                              .quick = arguments.quick,
-                                              .only = arguments.materials,
-                                              .progress = progress});
-    report.notes = list.notes;
-    if (arguments.list) {
-        for (const Material& m : list.materials) fmt::print("{}\t{}\n", m.name, m.source);
-        return 0;
+    if (arguments.list || wants(arguments, "factored")) {
+        const MaterialList list = benchMaterials({.shared = arguments.shared,
+                                                  .cache = fs::path(arguments.out) / "merl",
+                                                  .quick = arguments.quick,
+                                                  .only = arguments.materials,
+                                                  .progress = progress});
+        if (arguments.list) {
+            for (const Material& m : list.materials) fmt::print("{}\t{}\n", m.name, m.source);
+            return 0;
+        }
+        runFactored(arguments, list, progress, report);
     }
-    std::optional<GpuLab> lab = openLab(arguments, report.notes);
-    GpuLab* const gpu = lab ? &*lab : nullptr;
-    if (lab) report.renderer = lab->description();
-    if (!arguments.noBars) report.bars = measureBars(list.materials, gpu, {.progress = progress}, &report.measurements);
-    if (!arguments.barsOnly)
-        for (const Material& m : list.materials) sweep(m, arguments.quick, gpu, progress, report.measurements);
+    if (wants(arguments, "environment")) runEnvironment(arguments, progress, report);
     report.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     if (!arguments.quiet && isatty(2) != 0) fmt::print(stderr, "\r\033[K");
     fmt::print("{}", barTable(report.bars));
     if (arguments.barsOnly) return 0;
     writeReport(report, arguments.out);
     if (!arguments.quiet)
-        fmt::print(stderr, "bench: {} bakes in {:.0f} s: {}\n", report.measurements.size(), report.seconds,
-                   (fs::path(arguments.out) / "index.html").string());
+        fmt::print(stderr, "bench: {} bakes in {:.0f} s: {}\n", report.measurements.size() + report.environments.size(),
+                   report.seconds, (fs::path(arguments.out) / "index.html").string());
     return 0;
 }
 
@@ -141,10 +176,13 @@ int main(int argc, char** argv) {
     nacre::bench::Arguments arguments;
     arguments.shared = nacre::bench::defaultShared();
     CLI::App app(
-        "Measures error, bytes, bake time and frame time of every factorization; writes report.json and index.html.");
+        "Measures error and cost of every factorization and of prefiltered environments; writes report.json and "
+        "index.html.");
     app.add_option("--out", arguments.out, "folder to write")->capture_default_str();
     app.add_option("--shared", arguments.shared, "folder with data/brdf and tools, for measured materials")
         ->capture_default_str();
+    app.add_option("--techniques", arguments.techniques, "only these: factored, environment")
+        ->check(CLI::IsMember({"factored", "environment"}));
     app.add_option("--materials", arguments.materials, "only these (names as --list prints them)");
     app.add_flag("--quick", arguments.quick, "few materials and settings: a minute or two");
     app.add_flag("--bars", arguments.barsOnly, "print the promised figures as PASS or MISS, and nothing else");

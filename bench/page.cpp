@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "bench/environment_report.hpp"
+#include "bench/html.hpp"
 #include "bench/plot.hpp"
 #include "bench/report.hpp"
 
@@ -28,24 +30,6 @@ th:first-child, td:first-child { text-align: left; } th { color: var(--soft); }
 .PASS { color: var(--good); font-weight: 600; } .MISS { color: var(--bad); font-weight: 600; }
 )css";
 
-std::string escaped(const std::string& text) {
-    std::string out;
-    for (const char c : text) out += c == '&' ? "&amp;" : c == '<' ? "&lt;" : c == '>' ? "&gt;" : std::string(1, c);
-    return out;
-}
-
-std::string row(const std::vector<std::string>& cells, const char* tag = "td") {
-    std::string out = "<tr>";
-    for (const std::string& cell : cells) out += fmt::format("<{0}>{1}</{0}>", tag, cell);
-    return out + "</tr>\n";
-}
-
-std::string table(const std::vector<std::string>& head, const std::string& rows) {
-    return "<div class=\"wide\"><table>\n<thead>" + row(head, "th") + "</thead><tbody>\n" + rows +
-           "</tbody></table></div>\n";
-}
-
-std::string percent(double share) { return fmt::format("{:.3g} %", 100 * share); }
 std::string ratioText(double ratio) { return ratio > 0 ? fmt::format("{:.2f}", ratio) : "–"; }
 
 std::string barsSection(const Report& report) {
@@ -126,22 +110,21 @@ std::string groupSection(const Report& report, Group group) {
     return out + "</div>\n" + summaryTable(summaries) + materialTable(report, group);
 }
 
+constexpr const char* kBrdfWords =
+    "<p>Reflectances factored into lookup textures: each point is one method at one setting: the median of the "
+    "relative "
+    "error E_L2 over the materials of its group, against the bytes of its textures, and against the time of a frame "
+    "({}) as a multiple of the same frame with the model evaluated in the same shader. Measured tables have no such "
+    "model; they are compared with Torrance–Sparrow. Frame times are medians of interleaved repeats. "
+    "<code>reference/README.md</code> defines the errors.</p>\n";
+
 std::string introduction(const Report& report) {
-    std::string out = fmt::format(
-        "<h1>nacre: speed against error</h1>\n<p>Technique: reflectances factored into lookup textures. Each point is "
-        "one "
-        "method at one setting: the median of the relative error E_L2 over the materials of its group, against the "
-        "bytes of "
-        "its textures, and against the time of a frame ({}) as a multiple of the same frame with the model evaluated "
-        "in the "
-        "same shader. Measured tables have no such model; they are compared with Torrance–Sparrow. Frame times are "
-        "medians "
-        "of interleaved repeats. <code>reference/README.md</code> defines the errors.</p>\n<p class=\"soft\">nacre {}; "
-        "{}; {}; "
-        "{:.0f} s{}.</p>\n",
-        GpuLab::frameText(), escaped(report.version), escaped(report.machine),
-        report.renderer.empty() ? "no OpenGL: cost not measured" : escaped(report.renderer), report.seconds,
-        report.quick ? "; a quick run: few materials and settings" : "");
+    std::string out = "<h1>nacre: speed against error</h1>\n";
+    if (!report.measurements.empty()) out += fmt::format(kBrdfWords, GpuLab::frameText());
+    out += fmt::format("<p class=\"soft\">nacre {}; {}; {}; {:.0f} s{}.</p>\n", escaped(report.version),
+                       escaped(report.machine),
+                       report.renderer.empty() ? "no OpenGL: cost not measured" : escaped(report.renderer),
+                       report.seconds, report.quick ? "; a quick run: few inputs and settings" : "");
     for (const std::string& note : report.notes) out += "<p class=\"soft\">" + escaped(note) + "</p>\n";
     return out;
 }
@@ -154,7 +137,7 @@ std::string reportPage(const Report& report) {
         "content=\"width=device-width, initial-scale=1\"><title>nacre: speed against error</title><style>";
     out += std::string(kStyle) + "</style></head><body><main>\n" + introduction(report) + barsSection(report);
     for (const Group group : kGroups) out += groupSection(report, group);
-    return out + "</main></body></html>\n";
+    return out + environmentSection(report.environments) + "</main></body></html>\n";
 }
 
 }  // namespace nacre::bench

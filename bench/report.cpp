@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "bench/environment_report.hpp"
+
 namespace nacre::bench {
 
 using nlohmann::json;
@@ -60,9 +62,11 @@ json barJson(const Bar& b) {
 json reportJson(const Report& report) {
     json out = {{"version", report.version},    {"machine", report.machine}, {"renderer", report.renderer},
                 {"frame", GpuLab::frameText()}, {"quick", report.quick},     {"seconds", report.seconds},
-                {"notes", report.notes},        {"bars", json::array()},     {"measurements", json::array()}};
+                {"notes", report.notes},        {"bars", json::array()},     {"measurements", json::array()},
+                {"environments", json::array()}};
     for (const Bar& bar : report.bars) out["bars"].push_back(barJson(bar));
     for (const Measurement& m : report.measurements) out["measurements"].push_back(measurementJson(m));
+    for (const EnvironmentMeasurement& m : report.environments) out["environments"].push_back(environmentJson(m));
     return out;
 }
 

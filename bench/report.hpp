@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "bench/bars.hpp"
+#include "bench/environment_sweep.hpp"
 #include "bench/sweep.hpp"
 
 namespace nacre::bench {
@@ -17,6 +18,7 @@ struct Report {
     std::vector<std::string> notes;
     std::vector<Bar> bars;
     std::vector<Measurement> measurements;
+    std::vector<EnvironmentMeasurement> environments;
 };
 
 /// Numbers that aren't finite become the strings "inf", "-inf" and "nan".

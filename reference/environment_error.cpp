@@ -99,32 +99,48 @@ Spread spreadOf(const std::vector<Rgb>& found, const std::vector<Rgb>& expected,
 
 EnvironmentError measureEnvironment(const EnvMap& map, const EnvironmentTruth& truth, const Lobe& lobe, int samples,
                                     std::uint64_t seed, unsigned threads) {
+    return measureEnvironment(map, drawEnvironmentSamples(map.layout, map.size(), truth, lobe, samples, seed, threads));
+}
+
+EnvironmentSamples drawEnvironmentSamples(EnvLayout layout, int size, const EnvironmentTruth& truth, const Lobe& lobe,
+                                          int samples, std::uint64_t seed, unsigned threads) {
     require(samples >= 1, "measureEnvironment: samples must be >= 1");
     std::mt19937_64 random(seed);
     const auto uniform = [&] { return static_cast<double>(random() >> 11) * 0x1p-53; };
-    std::vector<Vec3> directions;
-    std::vector<Rgb> found, expected(2 * samples);
-    while (directions.size() < static_cast<std::size_t>(samples)) {
-        const int x = static_cast<int>(uniform() * map.image.width()),
-                  y = static_cast<int>(uniform() * map.image.height());
-        if (envSolidAngle(map.layout, map.size(), x, y) == 0) continue;
-        directions.push_back(envTexelDirection(map.layout, map.size(), x, y));
-        found.push_back(map.image.rgb(x, y));
+    const glm::ivec2 extent = envExtent(layout, size);
+    EnvironmentSamples out{layout, size, {}, {}, std::vector<Rgb>(2 * samples)};
+    while (out.directions.size() < static_cast<std::size_t>(samples)) {
+        const int x = static_cast<int>(uniform() * extent.x), y = static_cast<int>(uniform() * extent.y);
+        if (envSolidAngle(layout, size, x, y) == 0) continue;
+        out.texels.emplace_back(x, y);
+        out.directions.push_back(envTexelDirection(layout, size, x, y));
     }
     for (int i = 0; i < samples; ++i) {
         const double z = 1 - 2 * uniform(), phi = 2 * kPi * uniform(), s = std::sqrt(std::max(0.0, 1 - z * z));
-        directions.emplace_back(s * std::cos(phi), s * std::sin(phi), z);
-        found.push_back(sampleEnv(map, directions.back()));
+        out.directions.emplace_back(s * std::cos(phi), s * std::sin(phi), z);
     }
-    parallelFor(directions.size(), threads, [&](std::size_t i) { expected[i] = truth(lobe, directions[i]); });
+    parallelFor(out.directions.size(), threads,
+                [&](std::size_t i) { out.expected[i] = truth(lobe, out.directions[i]); });
+    return out;
+}
+
+EnvironmentError measureEnvironment(const EnvMap& map, const EnvironmentSamples& samples) {
+    require(map.layout == samples.layout && map.size() == samples.size,
+            "measureEnvironment: expected a map of the samples' layout and size");
+    const std::size_t count = samples.texels.size();
+    std::vector<Rgb> found;
+    for (const glm::ivec2& texel : samples.texels) found.push_back(map.image.rgb(texel.x, texel.y));
+    for (std::size_t i = count; i < samples.directions.size(); ++i)
+        found.push_back(sampleEnv(map, samples.directions[i]));
     EnvironmentError out;
-    out.samples = samples;
-    for (int i = 0; i < samples; ++i) out.mean += mean(expected[i]) / samples;
-    const auto part = [&](const std::vector<Rgb>& all, int first) {
-        return std::vector<Rgb>(all.begin() + first, all.begin() + first + samples);
+    out.samples = static_cast<int>(count);
+    for (std::size_t i = 0; i < count; ++i) out.mean += mean(samples.expected[i]) / static_cast<double>(count);
+    const auto part = [&](const std::vector<Rgb>& all, std::size_t first) {
+        return std::vector<Rgb>(all.begin() + static_cast<std::ptrdiff_t>(first),
+                                all.begin() + static_cast<std::ptrdiff_t>(first + count));
     };
-    const Spread centres = spreadOf(part(found, 0), part(expected, 0), out.mean);
-    const Spread between = spreadOf(part(found, samples), part(expected, samples), out.mean);
+    const Spread centres = spreadOf(part(found, 0), part(samples.expected, 0), out.mean);
+    const Spread between = spreadOf(part(found, count), part(samples.expected, count), out.mean);
     out.rmse = centres.rmse, out.p95 = centres.p95, out.max = centres.max;
     out.filteredRmse = between.rmse, out.filteredP95 = between.p95, out.filteredMax = between.max;
     return out;

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <vector>
 
 #include "core/environment.hpp"
 #include "core/progress.hpp"
@@ -43,5 +44,19 @@ struct EnvironmentError {
 /// `samples` texels drawn uniformly, and as many directions uniform on the sphere.
 EnvironmentError measureEnvironment(const EnvMap& map, const EnvironmentTruth& truth, const Lobe& lobe,
                                     int samples = 300, std::uint64_t seed = 1, unsigned threads = 0);
+
+/// Where maps of one layout and size are measured, with the truth there: the truth costs far more than a bake, so
+/// that who compares many bakes of one lobe draws it once.
+struct EnvironmentSamples {
+    EnvLayout layout = EnvLayout::Cube;
+    int size = 0;
+    std::vector<glm::ivec2> texels;
+    std::vector<Vec3> directions;  ///< the texels' centres, then as many uniform on the sphere
+    std::vector<Rgb> expected;     ///< the truth at each direction
+};
+EnvironmentSamples drawEnvironmentSamples(EnvLayout layout, int size, const EnvironmentTruth& truth, const Lobe& lobe,
+                                          int samples = 300, std::uint64_t seed = 1, unsigned threads = 0);
+/// \throws std::invalid_argument unless the map has the samples' layout and size
+EnvironmentError measureEnvironment(const EnvMap& map, const EnvironmentSamples& samples);
 
 }  // namespace nacre

@@ -54,6 +54,13 @@ std::vector<ShaderDefines> directChoices() {
     return out;
 }
 
+std::vector<ShaderDefines> prefilterChoices() {
+    std::vector<ShaderDefines> out;
+    for (const char* lobe : {"MIRROR", "DIFFUSE", "PHONG", "GGX", "BECKMANN"})
+        out.push_back({{"NACRE_PREFILTER_LOBE", std::string("NACRE_PREFILTER_") + lobe}});
+    return out;
+}
+
 std::vector<ShaderDefines> choicesFor(const std::string& file) {
     if (file == "nacre/bind/factored_brdf.glsl") return factoredChoices();
     if (file == "nacre/bind/direct_brdf.glsl") return directChoices();
@@ -62,6 +69,7 @@ std::vector<ShaderDefines> choicesFor(const std::string& file) {
         for (ShaderDefines& defines : directChoices()) out.push_back(std::move(defines));
         return out;
     }
+    if (file == "nacre/prefilter.glsl") return prefilterChoices();
     return {{}};
 }
 
@@ -99,6 +107,9 @@ std::vector<ProgramCase> programs() {
             matrix.push_back(defines);
         }
     out.push_back({"lit_matrix.vert.glsl", "lit_matrix.frag.glsl", matrix});
+    out.push_back({"fullscreen.vert.glsl", "prefilter.frag.glsl", prefilterChoices()});
+    out.push_back({"fullscreen.vert.glsl", "prefilter_copy.frag.glsl", {{}}});
+    out.push_back({"fullscreen.vert.glsl", "prefilter_halve.frag.glsl", {{}}});
     return out;
 }
 
