@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "cli/numbers.hpp"
@@ -21,9 +22,17 @@ std::vector<Option> lobeOptions(LobeSettings& s) {
             throw UsageError(fmt::format("expected a finite number >= 0, found '{}'", text));
         s.exponent = value;
     };
+    const auto axis = [&s](const std::string& text) {
+        std::array<double, 3> v{};
+        if (!parseNumbers(text, v) || !isFinite({v[0], v[1], v[2]}) || v == std::array<double, 3>{})
+            throw UsageError(fmt::format("expected a direction x,y,z, found '{}'", text));
+        s.axis = Vec3(v[0], v[1], v[2]);
+    };
     return {{"--lobe", "NAME", "Prefilter with this lobe", into(s.lobe), false, lobeNames()},
             {"--exponent", "N", "Of phong: 1/r of HSE eq. 6, >= 0", exponent},
             {"--alpha", "A", "Of ggx, beckmann and their refractions: width of the slopes, in (0, 1]", number(s.alpha)},
+            {"--alpha-y", "A", "Of ggx_anisotropic: width across the tangent, --alpha along it", number(s.alphaY)},
+            {"--axis", "X,Y,Z", "Of ggx_anisotropic: the tangent's direction in the world (default 0,1,0)", axis},
             {"--ior", "N", "Of a refraction: index beyond the surface over the viewer's side", number(s.ior)},
             {"--chain", "LEVELS", "Levels of growing roughness, each half the size of the one before",
              integerInto([&s](long long v) { s.chain = static_cast<int>(v); }, 2, 16)},
@@ -49,15 +58,19 @@ void refuseUnused(const LobeSettings& s, LobeKind kind) {
     };
     refuse(s.exponent.has_value(), kind == LobeKind::Phong, "--exponent");
     refuse(s.alpha.has_value(), usesAlpha(kind), "--alpha");
+    const bool anisotropic = kind == LobeKind::GgxAnisotropic;
     refuse(s.ior.has_value(), refracts(kind), "--ior");
-    refuse(s.chain > 0, kind == LobeKind::Phong || usesAlpha(kind), "--chain");
-    refuse(!s.values.empty(), s.chain > 0 || kind == LobeKind::Phong || usesAlpha(kind), "--values");
+    refuse(s.alphaY.has_value(), anisotropic, "--alpha-y");
+    refuse(s.axis.has_value(), anisotropic, "--axis");
+    refuse(s.chain > 0, kind == LobeKind::Phong || (usesAlpha(kind) && !anisotropic), "--chain");
+    refuse(!s.values.empty(), kind == LobeKind::Phong || (usesAlpha(kind) && !anisotropic), "--values");
     const bool chained = s.chain > 0 || !s.values.empty();
     refuse(s.exponent && chained, false, "--exponent with a chain");
     refuse(s.alpha && chained, false, "--alpha with a chain");
     if (!chained && kind == LobeKind::Phong && !s.exponent) throw UsageError("--exponent: expected with --lobe phong");
     if (!chained && usesAlpha(kind) && !s.alpha)
         throw UsageError(fmt::format("--alpha: expected with --lobe {}", s.lobe));
+    if (anisotropic && !s.alphaY) throw UsageError(fmt::format("--alpha-y: expected with --lobe {}", s.lobe));
     if (refracts(kind) && !s.ior) throw UsageError(fmt::format("--ior: expected with --lobe {}", s.lobe));
 }
 
@@ -82,6 +95,8 @@ std::vector<double> parseValues(const std::string& text) {
 Lobe lobeOf(LobeKind kind, double value, const LobeSettings& s) {
     Lobe lobe{kind};
     lobe.ior = s.ior.value_or(1);
+    lobe.alphaY = s.alphaY.value_or(0);
+    lobe.axis = s.axis.value_or(lobe.axis);
     if (kind == LobeKind::Phong) lobe.exponent = value;
     if (usesAlpha(kind)) lobe.alpha = value;
     if (usesAlpha(kind) && value == 0) lobe.kind = LobeKind::Mirror;
@@ -94,6 +109,10 @@ json levelJson(const Lobe& lobe, const EnvMap& map, const PrefilterStep& step) {
     if (lobe.kind == LobeKind::Phong) out["exponent"] = lobe.exponent;
     if (usesAlpha(lobe.kind)) out["alpha"] = lobe.alpha;
     if (refracts(lobe.kind)) out["ior"] = lobe.ior;
+    if (lobe.kind == LobeKind::GgxAnisotropic) {
+        out["alpha_y"] = lobe.alphaY;
+        out["axis"] = {lobe.axis.x, lobe.axis.y, lobe.axis.z};
+    }
     if (step.order >= 0) out["harmonics_order"] = step.order;
     if (step.directRadius > 0) out["direct_radius"] = step.directRadius;
     return out;

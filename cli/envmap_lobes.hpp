@@ -15,7 +15,8 @@ namespace nacre::cli {
 struct LobeSettings {
     std::string lobe;    ///< empty = none asked for
     std::string values;  ///< of a chain, comma-separated
-    std::optional<double> exponent, alpha, ior, tolerance, maxError;
+    std::optional<double> exponent, alpha, alphaY, ior, tolerance, maxError;
+    std::optional<Vec3> axis;
     std::optional<std::size_t> maxBytes;
     int chain = 0;  ///< levels; 0 = one map
     bool verify = false;

@@ -117,7 +117,7 @@ static std::string lobesText(const json& meta) {
     for (std::size_t m = 0; m < meta["lobes"].size(); ++m) {
         const json& level = meta["lobes"][m];
         text += fmt::format("  {:>4}  {}", level["size"].get<int>(), level["lobe"].get<std::string>());
-        for (const char* key : {"exponent", "alpha", "ior"})
+        for (const char* key : {"exponent", "alpha", "alpha_y", "ior"})
             if (level.contains(key)) text += fmt::format("  {} {:.5g}", key, level[key].get<double>());
         if (meta["error"].is_object() && meta["error"]["levels"][m].is_object()) {
             const json& e = meta["error"]["levels"][m];
@@ -131,13 +131,16 @@ static std::string lobesText(const json& meta) {
 
 static std::string summaryText(const Settings& s, const json& meta) {
     const json& e = meta["energy"];
-    std::string text = fmt::format(
-        "{}: {} {}, levels: {}, {}, {:.2f} s ({:.2f} CPU)\nenergy in {:.6g}  out {:.6g}  error {:.2g}\n", s.output,
-        meta["layout"].get<std::string>(), meta["size"].get<int>(), meta["levels"].get<int>(),
-        humanBytes(meta["bytes"].get<std::size_t>()), meta["seconds"].get<double>(), meta["cpu_seconds"].get<double>(),
-        mean({e["in"][0], e["in"][1], e["in"][2]}), mean({e["out"][0], e["out"][1], e["out"][2]}),
-        e["error"].is_number() ? e["error"].get<double>() : NAN);
-    if (meta.contains("lobes")) text += lobesText(meta);
+    std::string text =
+        fmt::format("{}: {} {}, levels: {}, {}, {:.2f} s ({:.2f} CPU)\n", s.output, meta["layout"].get<std::string>(),
+                    meta["size"].get<int>(), meta["levels"].get<int>(), humanBytes(meta["bytes"].get<std::size_t>()),
+                    meta["seconds"].get<double>(), meta["cpu_seconds"].get<double>());
+    if (meta.contains("lobes"))
+        text += lobesText(meta);
+    else
+        text += fmt::format("energy in {:.6g}  out {:.6g}  error {:.2g}\n", mean({e["in"][0], e["in"][1], e["in"][2]}),
+                            mean({e["out"][0], e["out"][1], e["out"][2]}),
+                            e["error"].is_number() ? e["error"].get<double>() : NAN);
     if (meta.contains("export"))
         text +=
             fmt::format("{}: {} levels, {}\n", meta["export"]["path"].get<std::string>(),

@@ -13,13 +13,14 @@ struct Named {
     LobeKind kind;
     const char* name;
 };
-constexpr std::array<Named, 7> kNames{{{LobeKind::Mirror, "mirror"},
+constexpr std::array<Named, 8> kNames{{{LobeKind::Mirror, "mirror"},
                                        {LobeKind::Diffuse, "diffuse"},
                                        {LobeKind::Phong, "phong"},
                                        {LobeKind::Ggx, "ggx"},
                                        {LobeKind::Beckmann, "beckmann"},
                                        {LobeKind::GgxRefraction, "ggx_refraction"},
-                                       {LobeKind::BeckmannRefraction, "beckmann_refraction"}}};
+                                       {LobeKind::BeckmannRefraction, "beckmann_refraction"},
+                                       {LobeKind::GgxAnisotropic, "ggx_anisotropic"}}};
 
 /// D(θh)/D(0): GGX and Beckmann as ratios, so that no alpha overflows.
 double ggx(double alpha, double sinH, double cosH) { return 1 / sqr(cosH * cosH + sqr(sinH / alpha)); }
@@ -115,14 +116,22 @@ LobeKind lobeKindFromString(const std::string& name) {
 
 bool usesAlpha(LobeKind kind) {
     return kind == LobeKind::Ggx || kind == LobeKind::Beckmann || kind == LobeKind::GgxRefraction ||
-           kind == LobeKind::BeckmannRefraction;
+           kind == LobeKind::BeckmannRefraction || kind == LobeKind::GgxAnisotropic;
 }
+
+bool isZonal(LobeKind kind) { return kind != LobeKind::Mirror && kind != LobeKind::GgxAnisotropic; }
 
 void validateLobe(const Lobe& lobe) {
     require(lobe.kind != LobeKind::Phong || (std::isfinite(lobe.exponent) && lobe.exponent >= 0),
             fmt::format("phong: expected an exponent >= 0, found {}", lobe.exponent));
     require(!usesAlpha(lobe.kind) || (lobe.alpha > 0 && lobe.alpha <= 1),
             fmt::format("{}: expected alpha in (0, 1], found {}", toString(lobe.kind), lobe.alpha));
+    if (lobe.kind == LobeKind::GgxAnisotropic) {
+        require(lobe.alphaY > 0 && lobe.alphaY <= 1,
+                fmt::format("ggx_anisotropic: expected alpha across the tangent in (0, 1], found {}", lobe.alphaY));
+        require(isFinite(lobe.axis) && glm::length(lobe.axis) > 0,
+                "ggx_anisotropic: expected a finite axis that is not 0");
+    }
     const bool refracts = lobe.kind == LobeKind::GgxRefraction || lobe.kind == LobeKind::BeckmannRefraction;
     require(!refracts || (std::isfinite(lobe.ior) && lobe.ior > 0),
             fmt::format("{}: expected an index of refraction > 0, found {}", toString(lobe.kind), lobe.ior));
@@ -132,6 +141,7 @@ ZonalKernel zonalKernel(const Lobe& lobe) {
     validateLobe(lobe);
     switch (lobe.kind) {
         case LobeKind::Mirror:
+        case LobeKind::GgxAnisotropic:
             break;
         case LobeKind::Diffuse:
             return {[](double t) { return std::max(0.0, std::cos(t)); }, 1, kPi / 2};
@@ -150,7 +160,7 @@ ZonalKernel zonalKernel(const Lobe& lobe) {
         case LobeKind::BeckmannRefraction:
             return refraction(beckmann, lobe.alpha, lobe.ior);
     }
-    throw std::invalid_argument("a mirror has no kernel");
+    throw std::invalid_argument(fmt::format("{}: it has no kernel by the angle alone", toString(lobe.kind)));
 }
 
 std::vector<double> zonalCoefficients(const ZonalKernel& kernel, int order) {

@@ -16,9 +16,12 @@ namespace nacre {
 ///   viewer Ggx, Beckmann   D(θ/2) · max(0, cosθ)                 n = v = r, weight D(n·h) · n·l GgxRefraction,
 ///   BeckmannRefraction                     n = v, r = refracted viewer, −n; h with θ = θh − θt(θh):
 ///                   D(θh) cosθh · dωh/dωl · cosθ          weight: density of l times |n·l| (Walter 2007, eq. 17)
-enum class LobeKind { Mirror, Diffuse, Phong, Ggx, Beckmann, GgxRefraction, BeckmannRefraction };
+///   GgxAnisotropic  D(h) · max(0, cosθ)                    n = v = r, widths alpha along the tangent and alphaY across
+///   it;
+///                   the tangent is `axis` without its part along r: a frame stated once for the whole map
+enum class LobeKind { Mirror, Diffuse, Phong, Ggx, Beckmann, GgxRefraction, BeckmannRefraction, GgxAnisotropic };
 
-std::string toString(LobeKind kind);  ///< mirror, diffuse, phong, ggx, beckmann, ggx_refraction, beckmann_refraction
+std::string toString(LobeKind kind);  ///< mirror, diffuse, phong, ggx, … as lobeNames() lists them
 /// \throws std::invalid_argument that lists the known names
 LobeKind lobeKindFromString(const std::string& name);
 std::vector<std::string> lobeNames();
@@ -28,6 +31,8 @@ struct Lobe {
     double exponent = 0;  ///< Phong: ≥ 0
     double alpha = 0;     ///< microfacet lobes: width of the slopes, in (0, 1]
     double ior = 1;       ///< refraction: index beyond the surface relative to the viewer's side, > 0; 1 is Mirror
+    double alphaY = 0;    ///< anisotropic: in (0, 1]
+    Vec3 axis{0, 1, 0};   ///< anisotropic: any length > 0
 };
 
 /// \throws std::invalid_argument naming the value and its range
@@ -41,7 +46,9 @@ struct ZonalKernel {
     double support = kPi;                       ///< 0 beyond [rad]
 };
 
-/// The lobe's kernel; Mirror has none. \throws std::invalid_argument for Mirror and bad parameters
+bool isZonal(LobeKind kind);  ///< false for Mirror and GgxAnisotropic
+
+/// The lobe's kernel. \throws std::invalid_argument when it is not zonal, and for bad parameters
 ZonalKernel zonalKernel(const Lobe& lobe);
 
 /// Funk–Hecke: k_l = ∫ k(θ) P_l(cosθ) sinθ dθ / ∫ k(θ) sinθ dθ, l = 0…order; k_0 = 1. A harmonic of degree l filtered

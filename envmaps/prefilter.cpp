@@ -7,6 +7,7 @@
 
 #include "core/error.hpp"
 #include "core/parallel.hpp"
+#include "envmaps/anisotropic_filter.hpp"
 #include "envmaps/convert.hpp"
 #include "envmaps/direct_filter.hpp"
 #include "envmaps/texel_points.hpp"
@@ -236,7 +237,7 @@ Prefiltered prefilter(const EnvMap& source, std::span<const PrefilterLevel> leve
     for (std::size_t i = 0; i < levels.size(); ++i) {
         validateLobe(levels[i].lobe);
         require(levels[i].size >= 1, "prefilter: size must be >= 1");
-        if (!isMirror(levels[i].lobe)) plans[i] = makePlan(source, levels[i], options);
+        if (isZonal(levels[i].lobe.kind) && !isMirror(levels[i].lobe)) plans[i] = makePlan(source, levels[i], options);
     }
     report(options.progress, "analysing", 0);
     analyse(source, plans, options, basis);
@@ -245,8 +246,12 @@ Prefiltered prefilter(const EnvMap& source, std::span<const PrefilterLevel> leve
         report(options.progress, "filtering", static_cast<double>(i + 1) / static_cast<double>(levels.size() + 1));
         const Stopwatch watch;
         const int size = levels[i].size;
-        out.levels.push_back(isMirror(levels[i].lobe) ? convertEnv(source, options.layout, size, options.threads)
-                                                      : filterLevel(source, basis, plans[i], size, options));
+        if (isMirror(levels[i].lobe))
+            out.levels.push_back(convertEnv(source, options.layout, size, options.threads));
+        else if (isZonal(levels[i].lobe.kind))
+            out.levels.push_back(filterLevel(source, basis, plans[i], size, options));
+        else
+            out.levels.push_back(filterAnisotropic(source, levels[i].lobe, options.layout, size, options.threads));
         out.steps.push_back({static_cast<int>(plans[i].coefficients.size()) - 1, plans[i].radius, watch.seconds()});
     }
     return out;

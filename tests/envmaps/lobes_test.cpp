@@ -71,6 +71,9 @@ TEST(Lobe, RejectsBadParametersAndNames) {
     EXPECT_THROW(zonalKernel({LobeKind::Ggx, 0, 0}), std::invalid_argument);
     EXPECT_THROW(zonalKernel({LobeKind::Ggx, 0, 1.5}), std::invalid_argument);
     EXPECT_THROW(zonalKernel({LobeKind::GgxRefraction, 0, 0.5, 0}), std::invalid_argument);
+    EXPECT_THROW(validateLobe({LobeKind::GgxAnisotropic, 0, 0.5, 1, 0}), std::invalid_argument);
+    EXPECT_THROW(validateLobe({LobeKind::GgxAnisotropic, 0, 0.5, 1, 0.5, Vec3(0)}), std::invalid_argument);
+    EXPECT_THROW(zonalKernel({LobeKind::GgxAnisotropic, 0, 0.5, 1, 0.5}), std::invalid_argument);
     EXPECT_THROW(lobeKindFromString("gloss"), std::invalid_argument);
     for (const std::string& name : lobeNames()) EXPECT_EQ(toString(lobeKindFromString(name)), name);
 }

@@ -153,6 +153,20 @@ TEST(Prefilter, SunAtCornerSeamAndPoleIsAsBrightAsElsewhere) {
         }
 }
 
+TEST(Prefilter, AnisotropicLobesAreTheSumToo) {
+    const EnvMap source = roughMap(EnvLayout::Cube, 64);
+    const EnvironmentTruth truth(source);
+    for (const Vec3& axis : {Vec3(0, 1, 0), Vec3(3, 1, -2)}) {
+        const Lobe lobe{LobeKind::GgxAnisotropic, 0, 0.1, 1, 0.5, axis};
+        EXPECT_LT(measureEnvironment(filterOne(source, lobe, 7), truth, lobe, 60).rmse, 1e-5);
+    }
+    const Lobe equal{LobeKind::GgxAnisotropic, 0, 0.3, 1, 0.3};
+    const std::vector<float> round = texelsOf(source, {LobeKind::Ggx, 0, 0.3}, 5), same = texelsOf(source, equal, 5);
+    for (std::size_t i = 0; i < same.size(); ++i) EXPECT_NEAR(same[i], round[i], 1e-2f) << i;
+    for (const float v : texelsOf(oneTexel(EnvLayout::Cube, 5, {1, 0, 0}, 1, 1), equal, 3)) EXPECT_NEAR(v, 1, 1e-6);
+    EXPECT_EQ(texelsOf(source, equal, 5, EnvLayout::Cube, 1), same);
+}
+
 TEST(Prefilter, LampsInMergedTexelsKeepTheirPlace) {
     // Diffuse light merges 4 × 4 texels of a map of this size; a lamp of one texel is not to move to their middle.
     const EnvMap source = oneTexel(EnvLayout::Cube, 256, {0.2, 1, 0.1}, 3e4, 0.01);
