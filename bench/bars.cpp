@@ -116,7 +116,7 @@ void analyticBars(Bench& bench) {
 void measuredBars(Bench& bench) {
     const auto measured = [](const Material& m) { return isMeasured(m.group); };
     const std::string what = "measured isotropic RGB, auto, 2 fetches, 64 KiB";
-    const auto large = bench.bakeAll(measured, {"auto", 0, 0, TexelFormat::Half, 64 * 1024, 2});
+    const auto large = bench.bakeAll(measured, {.maxBytes = 64 * 1024, .maxFetches = 2});
     bench.bars.push_back(medianOf({what, "l2_rel, median", 0.017}, large, l2));
     bench.bars.push_back(worstOf({what, "l2_rel, worst", 0.08}, large, l2));
     bench.bars.push_back(medianOf({what, "log_rms, median", 0.03}, large, logRms));
@@ -130,7 +130,7 @@ void measuredBars(Bench& bench) {
     std::vector<Outcome> tables;
     for (const Outcome& o : large)
         if (o.material.group == Group::MerlTables) tables.push_back(o);
-    const auto small = bench.bakeAll(measured, {"auto", 0, 0, TexelFormat::Half, 9 * 1024, 2});
+    const auto small = bench.bakeAll(measured, {.maxBytes = 9 * 1024, .maxFetches = 2});
     bench.bars.push_back(
         medianOf({"measured isotropic RGB, auto, 2 fetches, 9 KiB", "l2_rel, median", 0.035}, small, l2));
     bench.bars.push_back(worstOf({"MERL table to two textures, auto", "seconds, worst", 10}, tables, seconds));
@@ -142,7 +142,7 @@ void anisotropicBars(Bench& bench) {
         {"GGX 0.1/0.4", 0.01}, {"Ward 0.1/0.3", 0.001}, {"Ashikhmin-Shirley 50/500", 0.03}};
     for (const auto& [name, limit] : rows) {
         const auto outcome = bench.bakeAll([&n = name](const Material& m) { return m.name == n; },
-                                           {"auto", 0, 0, TexelFormat::Half, 12 * 1024, 3});
+                                           {.maxBytes = 12 * 1024, .maxFetches = 3});
         bench.bars.push_back(worstOf({name + ", auto, 3 fetches, 12 KiB a channel", "l2_rel", limit}, outcome, l2));
     }
 }

@@ -9,7 +9,7 @@
 #include "core/error.hpp"
 #include "core/file.hpp"
 #include "factorize/models/models.hpp"
-#include "reference/analytic_brdf.hpp"
+#include "reference/factored_metrics.hpp"
 
 namespace nacre::bench {
 
@@ -196,8 +196,7 @@ OpenMaterial open(const Material& material) {
     OpenMaterial out;
     out.reflectance = openReflectance(material.source);
     out.openSeconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-    const auto independent = referenceBrdf(out.reflectance.source);
-    out.truth = independent ? *independent : out.reflectance.f;
+    out.truth = truthOf(out.reflectance);
     return out;
 }
 

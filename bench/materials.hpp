@@ -41,7 +41,7 @@ struct MaterialOptions {
 /// \throws std::invalid_argument when a name in `only` is unknown (lists the known ones)
 MaterialList benchMaterials(const MaterialOptions& options);
 
-/// The reflectance, and what it is measured against: reference/analytic_brdf.hpp for the models it knows, else itself.
+/// The reflectance, and what it is measured against: truthOf.
 struct OpenMaterial {
     Reflectance reflectance;
     BrdfFunction truth;

@@ -14,17 +14,11 @@ json number(double v) {
 }
 
 json errorJson(const Measurement& m) {
-    const BrdfError& e = m.error;
-    return {{"l2_rel", number(e.l2Rel)},
-            {"log_rms", number(e.logRms)},
-            {"max_rel", number(e.maxRel)},
-            {"grazing_l2_rel", number(e.grazingL2Rel)},
-            {"sphere_psnr", number(e.spherePsnr)},
-            {"albedo_max_abs", number(e.albedoMaxAbs)},
-            {"reciprocity_residual", number(m.reciprocityResidual)},
-            {"samples", e.samples},
-            {"negative", e.negative},
-            {"non_finite", e.nonFinite}};
+    json out = toJson(m.error);
+    out["reciprocity_residual"] = m.reciprocityResidual;
+    for (json& value : out)
+        if (value.is_number_float()) value = number(value.get<double>());
+    return out;
 }
 
 json settingJson(const Setting& s) {

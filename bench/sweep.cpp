@@ -3,7 +3,8 @@
 #include <fmt/format.h>
 
 #include <chrono>
-#include <memory>
+
+#include "reference/factored_metrics.hpp"
 
 namespace nacre::bench {
 
@@ -13,6 +14,7 @@ std::string text(const Setting& s) {
     if (!s.parametrization.empty()) out += " " + s.parametrization;
     if (s.terms > 0) out += fmt::format(", {} terms", s.terms);
     if (s.format != TexelFormat::Half) out += ", " + toString(s.format);
+    if (s.maxError) out += fmt::format(", error at most {}", *s.maxError);
     if (s.maxBytes) out += fmt::format(", at most {} bytes", *s.maxBytes);
     if (s.maxFetches) out += fmt::format(", at most {} fetches", *s.maxFetches);
     return out;
@@ -33,7 +35,7 @@ static void addQuick(const std::string& method, bool isotropic, std::vector<Sett
     if (method == "fit") return out.push_back({method, 32, 1});
     out.push_back({method, sizesOf(method).front()});
     if (method == "analytic") out.push_back({method, 32});
-    if (method == "cosine") out.push_back({method, 64, 0, TexelFormat::Unorm8});
+    if (method == "cosine") out.push_back({.method = method, .size = 64, .format = TexelFormat::Unorm8});
 }
 
 static void addAll(const std::string& method, std::vector<Setting>& out) {
@@ -42,7 +44,7 @@ static void addAll(const std::string& method, std::vector<Setting>& out) {
     for (const int size : sizes)
         for (int terms = 0; terms <= (hasTerms ? 2 : 0); ++terms) out.push_back({method, size, terms});
     for (const TexelFormat format : {TexelFormat::Unorm8, TexelFormat::Float})
-        for (const int size : {sizes[0], sizes[2]}) out.push_back({method, size, 0, format});
+        for (const int size : {sizes[0], sizes[2]}) out.push_back({.method = method, .size = size, .format = format});
     if (method == "svd") out.push_back({.method = "svd", .size = 32, .parametrization = "in_out"});
 }
 
@@ -63,21 +65,10 @@ static std::string texturesText(const FactoredBrdf& brdf) {
     return out;
 }
 
-static FactorizeOptions factorizeOptions(const OpenMaterial& opened, const Setting& setting) {
-    FactorizeOptions options;
-    options.method = setting.method;
-    options.size = setting.size;
-    options.terms = setting.terms;
-    options.format = setting.format;
-    options.parametrization = setting.parametrization;
-    options.maxBytes = setting.maxBytes;
-    options.maxFetches = setting.maxFetches;
-    options.measure = [truth = opened.truth, samples = std::make_shared<std::vector<TruthSample>>(),
-                       isotropic = opened.reflectance.isotropic](const FactoredBrdf& candidate) {
-        if (samples->empty()) *samples = sampleTruth(truth, {.samples = kSearchSamples, .isotropic = isotropic});
-        return l2Rel([&](const Vec3& wi, const Vec3& wo) { return evaluate(candidate, wi, wo); }, *samples);
-    };
-    return options;
+static FactorizeOptions withMeasure(const OpenMaterial& opened, Setting setting) {
+    setting.measure =
+        budgetMeasure(opened.truth, {.samples = kSearchSamples, .isotropic = opened.reflectance.isotropic});
+    return setting;
 }
 
 std::optional<Baked> bake(const Material& material, const OpenMaterial& opened, const Setting& setting,
@@ -85,7 +76,7 @@ std::optional<Baked> bake(const Material& material, const OpenMaterial& opened, 
     Baked out;
     const auto start = std::chrono::steady_clock::now();
     try {
-        out.brdf = factorize(opened.reflectance, factorizeOptions(opened, setting));
+        out.brdf = factorize(opened.reflectance, withMeasure(opened, setting));
     } catch (const std::invalid_argument&) {  // the documented answer of a method that doesn't fit
         return std::nullopt;
     }
@@ -100,8 +91,9 @@ std::optional<Baked> bake(const Material& material, const OpenMaterial& opened, 
     m.bytes = out.brdf.bytes();
     m.reciprocityResidual = opened.reflectance.reciprocityResidual;
     for (const AssetTexture& t : out.brdf.textures) m.channels = std::max(m.channels, t.image.channels());
-    m.error = measureBrdf([&](const Vec3& wi, const Vec3& wo) { return evaluate(out.brdf, wi, wo); }, opened.truth,
-                          {.samples = samples, .isotropic = opened.reflectance.isotropic});
+    m.error = measureBrdf(
+        functionOf(out.brdf), opened.truth,
+        {.samples = samples, .isotropic = opened.reflectance.isotropic, .truthEnergy = opened.reflectance.energy});
     return out;
 }
 

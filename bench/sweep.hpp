@@ -12,14 +12,7 @@
 namespace nacre::bench {
 
 /// What the user would type.
-struct Setting {
-    std::string method = "auto";
-    int size = 0, terms = 0;  ///< 0 = the method's own choice
-    TexelFormat format = TexelFormat::Half;
-    std::optional<std::size_t> maxBytes = {};
-    std::optional<int> maxFetches = {};
-    std::string parametrization = {};  ///< svd only
-};
+using Setting = FactorizeOptions;
 std::string text(const Setting& setting);
 
 /// Every method with its knobs, for any input: a method refuses inputs it doesn't fit.

@@ -96,10 +96,11 @@ static void requireKnownVerb(const std::vector<Verb>& verbs, int argc, const cha
 static int parseAndRun(int argc, const char* const* argv) {
     Context context;
     for (int i = 0; i < argc; ++i) context.commandLine += (i ? " " : "") + quoted(i ? argv[i] : "nacre");
-    const std::vector<Verb> verbs = {factorizeVerb(context), infoVerb(context), evalVerb(context), modelsVerb(context),
-                                     methodsVerb(context)};
+    const std::vector<Verb> verbs = {factorizeVerb(context), envmapVerb(context), infoVerb(context),
+                                     evalVerb(context),      modelsVerb(context), methodsVerb(context)};
     requireKnownVerb(verbs, argc, argv);
-    CLI::App app("Bakes reflectance into small textures, each with its measured error written inside.", "nacre");
+    CLI::App app("Bakes reflectance and light into small textures, each with its measured error written inside.",
+                 "nacre");
     app.set_version_flag("--version", "nacre " + nacreVersion());
     app.set_help_all_flag("--help-all", "The help of every verb");
     app.require_subcommand(1);

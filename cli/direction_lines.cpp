@@ -3,34 +3,11 @@
 #include <fmt/format.h>
 
 #include <array>
-#include <cctype>
-#include <charconv>
 
+#include "cli/numbers.hpp"
 #include "core/error.hpp"
 
 namespace nacre::cli {
-
-static std::string_view trimmed(std::string_view text) {
-    while (!text.empty() && (text.front() == ' ' || text.front() == '\t')) text.remove_prefix(1);
-    while (!text.empty() && (text.back() == ' ' || text.back() == '\t' || text.back() == '\r')) text.remove_suffix(1);
-    return text;
-}
-
-/// Takes the number up to the next comma off `rest`; false when it is none.
-static bool takeNumber(std::string_view& rest, double& value) {
-    const std::size_t comma = rest.find(',');
-    const std::string_view field = trimmed(rest.substr(0, comma));
-    rest = comma == std::string_view::npos ? std::string_view{} : rest.substr(comma + 1);
-    const auto [end, failure] = std::from_chars(field.data(), field.data() + field.size(), value);
-    return failure == std::errc{} && end == field.data() + field.size();
-}
-
-static bool parse(std::string_view line, std::array<double, 6>& values) {
-    if (std::count(line.begin(), line.end(), ',') != 5) return false;
-    for (double& value : values)
-        if (!takeNumber(line, value)) return false;
-    return true;
-}
 
 void DirectionReader::take(std::string_view line, std::vector<DirectionPair>& pairs) {
     ++lineNumber_;
@@ -43,7 +20,7 @@ void DirectionReader::take(std::string_view line, std::vector<DirectionPair>& pa
         throw Error(fmt::format("standard input: line {}: expected {}, found '{}'", lineNumber_, expected,
                                 found.size() > 80 ? found.substr(0, 80) : found));
     };
-    if (!parse(line, v)) {
+    if (!parseNumbers(line, v)) {
         if (first && line.substr(0, 3) == "wix") return;  // a header; a typo in a number is none
         fail("six numbers wix,wiy,wiz,wox,woy,woz", line);
     }

@@ -39,6 +39,7 @@ struct Context {
 Verb modelsVerb(Context& context);
 Verb methodsVerb(Context& context);
 Verb factorizeVerb(Context& context);
+Verb envmapVerb(Context& context);
 Verb infoVerb(Context& context);
 Verb evalVerb(Context& context);
 

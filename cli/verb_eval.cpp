@@ -1,29 +1,26 @@
 // nacre eval: what the shader computes from a file, for directions on standard input, beside the truth.
 #include <fmt/format.h>
 
-#include <cerrno>
-#include <cstdio>
-#include <cstring>
 #include <iterator>
 #include <memory>
 #include <optional>
 
+#include "cli/data_report.hpp"
 #include "cli/direction_lines.hpp"
+#include "cli/eval_environment.hpp"
+#include "cli/numbers.hpp"
 #include "cli/terminal.hpp"
-#include "cli/truth.hpp"
 #include "cli/verb.hpp"
 #include "core/asset.hpp"
 #include "core/error.hpp"
 #include "core/parallel.hpp"
-#include "factorize/factored_brdf.hpp"
+#include "reference/factored_metrics.hpp"
 
 namespace nacre::cli {
 
 namespace {
 
 constexpr std::size_t kBatch = 1 << 16;  ///< pairs that are evaluated together: bounded memory for any input
-constexpr std::size_t kBlock = 1 << 16;  ///< bytes read at once
-constexpr std::size_t kMaxLine = 1 << 16;
 
 struct Settings {
     std::string file, source;
@@ -56,27 +53,14 @@ static void answer(const Evaluator& evaluator, std::vector<DirectionPair>& pairs
     pairs.clear();
 }
 
-/// Calls take(line) for each line of standard input, the last one with or without its line end.
-template <typename Take>
-static void forEachLine(Take&& take) {
-    std::string pending;
-    std::vector<char> block(kBlock);
-    while (const std::size_t count = std::fread(block.data(), 1, block.size(), stdin)) {
-        pending.append(block.data(), count);
-        std::size_t begin = 0;
-        for (std::size_t end; (end = pending.find('\n', begin)) != std::string::npos; begin = end + 1)
-            take(std::string_view(pending).substr(begin, end - begin));
-        pending.erase(0, begin);
-        if (pending.size() > kMaxLine)
-            throw Error(
-                fmt::format("standard input: expected lines of at most {} bytes, found a longer one", kMaxLine));
-    }
-    if (std::ferror(stdin)) throw Error(fmt::format("standard input: can't read: {}", std::strerror(errno)));
-    if (!pending.empty()) take(pending);
-}
-
 static void runEval(const Settings& s) {
-    Evaluator evaluator{factoredFromAsset(readAsset(s.file), s.file), {}, s.threads};
+    const Asset asset = readAsset(s.file);
+    if (asset.kind == "environment") {
+        if (!s.source.empty()) throw UsageError("--source: expected an asset of kind brdf, found kind environment");
+        evalEnvironment(asset, s.file, s.threads);
+        return;
+    }
+    Evaluator evaluator{factoredFromAsset(asset, s.file), {}, s.threads};
     if (!s.source.empty()) {
         const Reflectance reflectance = openReflectance(s.source);
         tellDataReport(reflectance);
@@ -84,7 +68,7 @@ static void runEval(const Settings& s) {
     }
     DirectionReader reader;
     std::vector<DirectionPair> pairs;
-    forEachLine([&](std::string_view line) {
+    forEachInputLine([&](std::string_view line) {
         reader.take(line, pairs);
         if (pairs.size() == kBatch) answer(evaluator, pairs);
     });
@@ -97,9 +81,12 @@ Verb evalVerb(Context&) {
     verb.details =
         "Standard input: lines wix,wiy,wiz,wox,woy,woz, unit directions away from the surface, z = normal; blank\n"
         "lines, lines that start with # and a header are skipped. Standard output: one line r,g,b for each, the BRDF\n"
-        "f [1/sr] without the cosine; with --source r,g,b,R,G,B, where R,G,B is the unbaked truth.";
+        "f [1/sr] without the cosine; with --source r,g,b,R,G,B, where R,G,B is the unbaked truth.\n"
+        "For an asset of kind environment: lines x,y,z[,alpha], a direction of any length; alpha (or the parameter "
+        "that\n"
+        "the asset's level_mapping names) chooses between the levels. Answer r,g,b, the radiance a shader fetches.";
     const auto threads = [s](long long v) { s->threads = static_cast<unsigned>(v); };
-    verb.options = {{"file", "FILE", "A baked asset of kind brdf", into(s->file), true},
+    verb.options = {{"file", "FILE", "A baked asset", into(s->file), true},
                     {"--source", "SOURCE", "Model or file that the truth comes from", into(s->source)},
                     {"--threads", "N", "0 = all cores", integerInto(threads, 0, 1024)}};
     verb.run = [s] { runEval(*s); };

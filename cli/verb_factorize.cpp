@@ -1,22 +1,18 @@
 // nacre factorize: open, bake, measure what was written, write both.
 #include <fmt/format.h>
-#include <unistd.h>
 
-#include <cerrno>
-#include <chrono>
 #include <cmath>
-#include <cstring>
 #include <filesystem>
-#include <fstream>
 #include <memory>
 
+#include "cli/data_report.hpp"
+#include "cli/output_file.hpp"
 #include "cli/terminal.hpp"
-#include "cli/truth.hpp"
 #include "cli/verb.hpp"
 #include "core/asset.hpp"
 #include "core/error.hpp"
 #include "factorize/factorize.hpp"
-#include "reference/brdf_metrics.hpp"
+#include "reference/factored_metrics.hpp"
 
 namespace nacre::cli {
 
@@ -31,39 +27,7 @@ struct Settings {
     bool asJson = false;
 };
 
-class Stopwatch {
-public:
-    double seconds() const { return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count(); }
-
-private:
-    std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
-};
-
-/// A file that is gone when the scope is left.
-struct ProvisionalFile {
-    fs::path path;
-    ~ProvisionalFile() {
-        std::error_code ignored;
-        fs::remove(path, ignored);
-    }
-};
-
 }  // namespace
-
-static json orNull(double value) { return std::isfinite(value) ? json(value) : json(nullptr); }
-
-static json errorJson(const BrdfError& e, double reciprocityResidual) {
-    return {{"l2_rel", orNull(e.l2Rel)},
-            {"log_rms", orNull(e.logRms)},
-            {"max_rel", orNull(e.maxRel)},
-            {"grazing_l2_rel", orNull(e.grazingL2Rel)},
-            {"sphere_psnr", orNull(e.spherePsnr)},
-            {"albedo_max_abs", orNull(e.albedoMaxAbs)},
-            {"reciprocity_residual", orNull(reciprocityResidual)},
-            {"samples", e.samples},
-            {"negative", e.negative},
-            {"non_finite", e.nonFinite}};
-}
 
 static json dataJson(const DataReport& d) {
     return {{"entries", d.entries},
@@ -71,22 +35,6 @@ static json dataJson(const DataReport& d) {
             {"negative", d.negative},
             {"non_finite", d.nonFinite},
             {"rule", d.rule}};
-}
-
-static BrdfFunction functionOf(const FactoredBrdf& brdf) {
-    return [&brdf](const Vec3& wi, const Vec3& wo) { return evaluate(brdf, wi, wo); };
-}
-
-/// Fails before the bake when nothing can be written there.
-static void requireWritable(const std::string& source, const std::string& output, const fs::path& provisional) {
-    require(!output.empty(), "-o: expected a file name, found none");
-    std::error_code failure;
-    require(!fs::equivalent(source, output, failure),
-            fmt::format("{}: expected an output other than the source, which it would replace", output));
-    if (fs::exists(output, failure) && !fs::is_regular_file(output, failure))
-        throw Error(fmt::format("{}: can't write: expected a file or a free name, found a folder or device", output));
-    if (!std::ofstream(provisional)) throw Error(fmt::format("{}: can't write: {}", output, std::strerror(errno)));
-    fs::remove(provisional, failure);  // it comes back for a moment after the bake; nothing is left by a kill before
 }
 
 /// The asset as it comes back from disk: what is measured is what a reader gets.
@@ -105,16 +53,6 @@ static std::string summaryText(const std::string& output, const json& meta) {
         humanBytes(meta["bytes"].get<std::size_t>()), meta.value("fetches", 0), meta["seconds"].get<double>(),
         number("l2_rel"), number("log_rms"), number("max_rel"), number("grazing_l2_rel"), number("sphere_psnr"),
         number("albedo_max_abs"));
-}
-
-/// The budget search asks with the very samples of the final measurement, so that what it accepts holds.
-static std::function<double(const FactoredBrdf&)> budgetMeasure(const BrdfFunction& truth,
-                                                                const BrdfMetricOptions& metric) {
-    auto samples = std::make_shared<std::vector<TruthSample>>();
-    return [=](const FactoredBrdf& candidate) {
-        if (samples->empty()) *samples = sampleTruth(truth, metric);
-        return l2Rel(functionOf(candidate), *samples, metric.threads);
-    };
 }
 
 static void describe(json& meta, const Context& context, const Settings& s, const Reflectance& reflectance) {
@@ -138,7 +76,8 @@ static void requireBudget(const Settings& s, const FactoredBrdf& baked) {
 }
 
 static void runFactorize(const Context& context, Settings& s) {
-    const fs::path provisional = s.output + fmt::format(".{}.provisional", ::getpid());
+    if (const auto unused = unusedOption(s.options)) throw UsageError("--" + *unused);
+    const fs::path provisional = provisionalName(s.output);
     const ProvisionalFile removeLater{provisional};
     requireWritable(s.source, s.output, provisional);
 
@@ -149,6 +88,7 @@ static void runFactorize(const Context& context, Settings& s) {
     BrdfMetricOptions metric;
     metric.isotropic = reflectance.isotropic;
     metric.threads = s.options.threads;
+    metric.truthEnergy = reflectance.energy;
     s.options.format = texelFormatFromString(s.format);
     s.options.progress = terminalProgress(context.quiet);
     s.options.measure = budgetMeasure(truth, metric);
@@ -167,11 +107,17 @@ static void runFactorize(const Context& context, Settings& s) {
     describe(asset.meta, context, s, reflectance);
     asset.meta["seconds"] = seconds;
     asset.meta["measure_seconds"] = measuring.seconds();
-    asset.meta["error"] = errorJson(error, reflectance.reciprocityResidual);
+    asset.meta["error"] = toJson(error);
+    asset.meta["error"]["reciprocity_residual"] = reflectance.reciprocityResidual;
     const json meta = throughFile(asset, s.output).meta;
     if (!(error.l2Rel < 1) || error.negative > 0)
         tell(fmt::format("{}: a poor fit: l2_rel {:.3g} (black scores 1), {} of {} samples negative", s.output,
                          error.l2Rel, error.negative, error.samples));
+    if (std::abs(error.energySeen - 1) > kEnergyTolerance)  // false for NaN: nobody counted
+        tell(fmt::format(
+            "{}: the errors were measured at {} pairs that see {:.3g} % of the energy of {}: a spike of few "
+            "cells lies between them, and the errors do not speak of it",
+            s.output, error.samples, 100 * error.energySeen, s.source));
     putData(s.asJson ? meta.dump(2) + "\n" : summaryText(s.output, meta));
 }
 
@@ -204,7 +150,7 @@ Verb factorizeVerb(Context& context) {
         {"--method", "NAME", "Factorization (default auto)", into(o.method), false, methodNames()},
         {"--size", "N", "Edge of the largest texture, 2 to 4096", integerInto(size, 2, 4096)},
         {"--terms", "K", "Terms of the svd, harmonics of the fit, 1 to 3", integerInto(terms, 1, 3)},
-        {"--parametrization", "NAME", "Of the svd", into(o.parametrization), false, {"half_diff", "in_out"}},
+        {"--parametrization", "NAME", "Of svd", into(o.parametrization), false, {"half_diff", "in_out", "symmetric"}},
         {"--format", "NAME", "Storage (default half)", into(s->format), false, {"half", "float", "unorm8"}},
         {"--max-error", "E", "Budget: largest l2_rel", positiveInto([&o](double v) { o.maxError = v; })},
         {"--max-bytes", "B", "Budget: bytes of all textures",

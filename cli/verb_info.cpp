@@ -6,6 +6,8 @@
 #include "cli/terminal.hpp"
 #include "cli/verb.hpp"
 #include "core/asset.hpp"
+#include "core/error.hpp"
+#include "factorize/factored_brdf.hpp"
 
 namespace nacre::cli {
 
@@ -39,6 +41,18 @@ static std::string infoText(const std::string& path, const Asset& asset) {
     return out;
 }
 
+/// Says when this version can show the file but not use it: a later version's kind or form, or a damaged description.
+static void tellUnusable(const std::string& path, const Asset& asset) {
+    if (asset.kind != "brdf")
+        return tell(fmt::format("{}: this version does not know the kind '{}' (it knows brdf) and can't use the file",
+                                path, asset.kind));
+    try {
+        factoredFromAsset(asset, path);
+    } catch (const Error& error) {
+        tell(fmt::format("{}; this version can't use the file", error.what()));
+    }
+}
+
 Verb infoVerb(Context&) {
     struct Settings {
         std::string file;
@@ -51,6 +65,7 @@ Verb infoVerb(Context&) {
     verb.run = [s] {
         const Asset asset = readAsset(s->file);
         putData(s->asJson ? asset.meta.dump(2) + "\n" : infoText(s->file, asset));
+        tellUnusable(s->file, asset);
     };
     return verb;
 }

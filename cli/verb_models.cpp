@@ -1,8 +1,10 @@
 // nacre models, nacre methods: what can go in, and the ways it can come out.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <sstream>
 
 #include "cli/terminal.hpp"
 #include "cli/verb.hpp"
@@ -22,11 +24,50 @@ static json modelJson(const ModelInfo& model) {
     return {{"name", model.name}, {"summary", model.summary}, {"source", model.source}, {"parameters", parameters}};
 }
 
+/// Characters of UTF-8 text: bytes that don't continue one.
+static std::size_t widthOf(const std::string& text) {
+    return static_cast<std::size_t>(
+        std::count_if(text.begin(), text.end(), [](char c) { return (static_cast<unsigned char>(c) & 0xc0) != 0x80; }));
+}
+
+/// `text` in lines of at most kColumns, broken at spaces; lines after the first start with `indent` spaces, as the
+/// first one already does. A word longer than a line stays whole.
+static std::string wrapped(const std::string& text, std::size_t indent) {
+    static constexpr std::size_t kColumns = 100;
+    std::string out;
+    std::size_t column = indent;
+    std::istringstream words(text);
+    for (std::string word; words >> word;) {
+        const std::size_t width = widthOf(word);
+        if (!out.empty() && column + 1 + width > kColumns) {
+            out += "\n" + std::string(indent, ' ');
+            column = indent;
+        } else if (!out.empty()) {
+            out += ' ';
+            ++column;
+        }
+        out += word;
+        column += width;
+    }
+    return out + "\n";
+}
+
+/// Summary, then range and default on lines of their own: both are short for one parameter and long for the next.
+static std::string parameterText(const ModelParameter& p) {
+    static constexpr std::size_t kIndent = 17;
+    const std::string range = fmt::format("{}; default {}", p.range, p.defaultValue);
+    return fmt::format("    {:<12} {}", p.name, wrapped(p.summary, kIndent)) + std::string(kIndent, ' ') +
+           wrapped(range, kIndent);
+}
+
 static std::string modelText(const ModelInfo& model) {
-    std::string out = fmt::format("{}\n    {} [{}]\n", model.name, model.summary, model.source);
-    for (const ModelParameter& p : model.parameters)
-        out += fmt::format("    {:<12} {:<28} default {:<14} {}\n", p.name, p.range, p.defaultValue, p.summary);
+    std::string out = fmt::format("{}\n    {}", model.name, wrapped(model.summary + " [" + model.source + "]", 4));
+    for (const ModelParameter& p : model.parameters) out += parameterText(p);
     return out;
+}
+
+static std::string methodText(const std::string& name, const std::string& text) {
+    return fmt::format("{:<14} {}", name, wrapped(text, 15));
 }
 
 /// Analytic models, published fits and micro-geometries: everything that is named instead of read.
@@ -78,11 +119,10 @@ Verb methodsVerb(Context&) {
     verb.options = {{"--json", "", "One JSON array on standard output", into(*asJson)}};
     verb.run = [asJson] {
         json list = json::array();
-        std::string text =
-            fmt::format("{:<14} {}\n", "auto", "the cheapest that meets the budget, else the most exact");
+        std::string text = methodText("auto", "the cheapest that meets the budget, else the most exact");
         for (const FactorizeMethod& m : factorizeMethods()) {
             list.push_back({{"name", m.name}, {"summary", m.summary}, {"fits", m.fits}});
-            text += fmt::format("{:<14} {} [fits: {}]\n", m.name, m.summary, m.fits);
+            text += methodText(m.name, m.summary + " [fits: " + m.fits + "]");
         }
         putData(*asJson ? list.dump(2) + "\n" : text);
     };

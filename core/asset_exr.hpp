@@ -22,7 +22,8 @@ inline std::vector<std::string> channelNames(int channels) {
     return {all.begin(), all.begin() + channels};
 }
 
-/// The first attribute of an EXR file's headers whose stated size goes beyond the end of the file. asset_scan.cpp
-std::optional<std::string> attributeBeyondEnd(std::span<const std::uint8_t> bytes);
+/// What is wrong with the file's start, in words that follow "found"; nothing when it is an EXR file whose headers end
+/// within it. asset_scan.cpp
+std::optional<std::string> brokenStart(std::span<const std::uint8_t> bytes);
 
 }  // namespace nacre::exr

@@ -44,6 +44,16 @@ static std::string shortened(std::string text) {
     return text;
 }
 
+/// What OpenEXR says, without the name that it gives every file here, as words that follow "found".
+static std::string foundByOpenExr(const std::exception& error) {
+    std::string text = error.what();
+    for (const char* opening :
+         {"Cannot read image file \"file\". ", "Error reading pixel data from image file \"file\". "})
+        if (text.rfind(opening, 0) == 0) text.erase(0, std::strlen(opening));
+    while (!text.empty() && (text.back() == '.' || text.back() == '\n')) text.pop_back();
+    return text.rfind("bytes ", 0) == 0 ? text : "it corrupt: " + text;
+}
+
 static nlohmann::json parseMetadata(const std::string& path, const std::string& text) {
     static constexpr int kMaxDepth = 32;  // nested deeper, a printer would exhaust the stack
     const auto shallow = [&](int depth, nlohmann::json::parse_event_t, nlohmann::json&) {
@@ -54,6 +64,8 @@ static nlohmann::json parseMetadata(const std::string& path, const std::string& 
         nlohmann::json json = nlohmann::json::parse(text, shallow);
         if (!json.is_object()) fail(path, "", "a JSON object in attribute 'nacre'", json.type_name());
         return json;
+    } catch (const nlohmann::json::parse_error& error) {
+        fail(path, "", "JSON in attribute 'nacre'", fmt::format("none from its byte {} on", error.byte));
     } catch (const nlohmann::json::exception& error) {
         fail(path, "", "JSON in attribute 'nacre'", error.what());
     }
@@ -197,7 +209,7 @@ static AssetTexture readPart(const std::string& path, Imf::MultiPartInputFile& f
         in.setFrameBuffer(frame);
         in.readPixels(0, entry.height - 1);
     } catch (const std::exception& error) {
-        fail(path, texture.name, "complete pixel data", error.what());
+        fail(path, texture.name, "complete pixel data", foundByOpenExr(error));
     }
     checkTexels(path, texture);
     return texture;
@@ -224,21 +236,19 @@ static Asset readOpened(const std::string& path, std::size_t fileBytes, Imf::Mul
 }
 
 Asset parseAsset(std::span<const std::uint8_t> bytes, const std::string& name) {
-    if (const auto attribute = exr::attributeBeyondEnd(bytes))
-        fail(name, "", "an OpenEXR file",
-             fmt::format("attribute '{}' larger than the file, or cut short", shortened(*attribute)));
+    if (const auto broken = exr::brokenStart(bytes)) fail(name, "", "an OpenEXR file", *broken);
     exr::MemoryIStream stream(bytes);
     std::unique_ptr<Imf::MultiPartInputFile> file;
     try {
         // No thread pool, and no reconstruction of a broken chunk table: a truncated file is an error.
         file = std::make_unique<Imf::MultiPartInputFile>(stream, 0, false);
     } catch (const std::exception& error) {
-        fail(name, "", "an OpenEXR file", error.what());
+        fail(name, "", "an OpenEXR file", foundByOpenExr(error));
     }
     try {
         return readOpened(name, bytes.size(), *file);
     } catch (const IEX_NAMESPACE::BaseExc& error) {
-        fail(name, "", "a valid OpenEXR file", error.what());
+        fail(name, "", "a valid OpenEXR file", foundByOpenExr(error));
     }
 }
 

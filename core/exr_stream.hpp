@@ -3,7 +3,9 @@
 
 #include <Iex.h>
 #include <ImfIO.h>
+#include <fmt/format.h>
 
+#include <algorithm>
 #include <cstdint>
 #include <cstring>
 #include <span>
@@ -16,7 +18,9 @@ public:
     bool read(char c[], int n) override {
         const std::uint64_t left = position_ < bytes_.size() ? bytes_.size() - position_ : 0;
         if (n < 0 || static_cast<std::uint64_t>(n) > left)
-            throw IEX_NAMESPACE::InputExc("the file ends too early: it is truncated");
+            throw IEX_NAMESPACE::InputExc(
+                fmt::format("bytes {} to {} named in a file of {}: it is cut short or corrupt", position_,
+                            position_ + static_cast<std::uint64_t>(std::max(n, 0)), bytes_.size()));
         std::memcpy(c, bytes_.data() + position_, static_cast<std::size_t>(n));
         position_ += static_cast<std::uint64_t>(n);
         return position_ < bytes_.size();

@@ -116,8 +116,7 @@ static ImageFile readOpened(Imf::MultiPartInputFile& file, std::size_t fileBytes
 }
 
 ImageFile parseExrImage(std::span<const std::uint8_t> bytes, const std::string& name) {
-    if (const auto attribute = exr::attributeBeyondEnd(bytes))
-        fail(name, "an OpenEXR file", fmt::format("attribute '{}' larger than the file, or cut short", *attribute));
+    if (const auto broken = exr::brokenStart(bytes)) fail(name, "an OpenEXR file", *broken);
     exr::MemoryIStream stream(bytes);
     try {
         // No thread pool, and no reconstruction of a broken chunk table: a truncated file is an error.

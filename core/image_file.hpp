@@ -26,11 +26,13 @@ struct ImageFile {
 /// Reads by content, not by the name's ending. OpenEXR: all compressions, half, float and uint, scanlines and tiles,
 /// the first part with R, G, B (A) or Y (A); its data window becomes the image. Radiance: RGBE, flat or run-length
 /// coded; mantissas count as m · 2^(e − 136), as in OpenImageIO. Others: the first image, its first 4 channels;
-/// integers are sRGB-decoded unless the file says linear. NaN and infinity are passed on. \throws nacre::Error, one
-/// line with path, expected and found; also when edges or values exceed core/asset_exr.hpp's
+/// integers are sRGB-decoded unless the file says linear. NaN and infinity are passed on.
+/// \throws nacre::Error, one line with path, expected and found; also when edges or values exceed
+/// core/asset_exr.hpp's
 ImageFile readImageFile(const std::filesystem::path& path);
 
-/// The readers on bytes. \param name  what messages call the file
+/// The readers on bytes.
+/// \param name  what messages call the file
 ImageFile parseExrImage(std::span<const std::uint8_t> bytes, const std::string& name);
 ImageFile parseRadianceImage(std::span<const std::uint8_t> bytes, const std::string& name);
 

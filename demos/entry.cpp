@@ -5,7 +5,7 @@
 #include <chrono>
 
 #include "demos/picture.hpp"
-#include "reference/brdf_metrics.hpp"
+#include "reference/factored_metrics.hpp"
 #include "reference/image_compare.hpp"
 #include "reference/raytrace.hpp"
 #include "shading/lit_pass.hpp"
@@ -43,17 +43,10 @@ double secondsSince(std::chrono::steady_clock::time_point start) {
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
-BrdfError measure(const FactoredBrdf& brdf, const Reflectance& truth, std::uint64_t samples) {
-    BrdfMetricOptions options;
-    options.samples = samples;
-    options.isotropic = truth.isotropic;
-    return measureBrdf([&](const Vec3& wi, const Vec3& wo) { return evaluate(brdf, wi, wo); }, truth.f, options);
-}
-
 /// Bakes, writes ID.exr, reads it back, and measures what was read: the file is what the pictures show.
 Baked bakeAndMeasure(const Recipe& recipe, const Reflectance& truth, const EntryOptions& options) {
     const auto start = std::chrono::steady_clock::now();
-    const FactoredBrdf made = factorize(truth, bakeOptions(recipe.bake));
+    const FactoredBrdf made = factorize(truth, recipe.bake);
     Baked baked;
     baked.facts.bakeSeconds = secondsSince(start);
     const std::filesystem::path file = options.folder / (recipe.id + ".exr");
@@ -62,7 +55,6 @@ Baked bakeAndMeasure(const Recipe& recipe, const Reflectance& truth, const Entry
     asset.meta["source"] = truth.source;
     writeAsset(asset, file);
     baked.brdf = factoredFromAsset(readAsset(file), file.string());
-    const BrdfError error = measure(baked.brdf, truth, options.samples);
     AssetFacts& f = baked.facts;
     f.source = truth.source;
     f.method = made.method;
@@ -70,11 +62,8 @@ Baked bakeAndMeasure(const Recipe& recipe, const Reflectance& truth, const Entry
     f.textures = texturesText(made);
     f.bytes = made.bytes();
     f.fetches = made.fetches;
-    f.l2Rel = error.l2Rel;
-    f.logRms = error.logRms;
-    f.maxRel = error.maxRel;
-    f.grazingL2Rel = error.grazingL2Rel;
-    f.spherePsnr = error.spherePsnr;
+    f.error = measureBrdf(functionOf(baked.brdf), truth.f,
+                          {.samples = options.samples, .isotropic = truth.isotropic, .truthEnergy = truth.energy});
     return baked;
 }
 
@@ -206,7 +195,7 @@ Entry makeEntry(const Recipe& recipe, const Stage& stage, ProgramLoader& loader,
     const PictureSize size = pictureSize(stage.aspect, options.size);
     entry.scene = fmt::format("{}; {} × {} pixels, 2 × 2 samples each.", stage.words, size.width, size.height);
     report(options.progress, recipe.id + ": bake", 0);
-    const Reflectance truth = openReflectance(recipe.bake.source);
+    const Reflectance truth = openReflectance(recipe.source);
     Recipe unnamed = recipe;
     unnamed.id.clear();
     const auto found = cache.find(bakeCommand(unnamed));

@@ -66,7 +66,7 @@ std::string summaryTable(const Gallery& gallery) {
     for (const Entry& e : gallery.entries) {
         const Shot& shot = e.shots.front();
         html += fmt::format("<tr><td><a href=\"#{}\">{}</a></td>", e.id, escapeHtml(e.title)) +
-                cell("E_L2", percent(e.asset.l2Rel)) + cell("picture", psnrText(shot.psnr)) +
+                cell("E_L2", percent(e.asset.error.l2Rel)) + cell("picture", psnrText(shot.psnr)) +
                 cell("bytes", formatBytes(e.asset.bytes)) + cell("fetches", std::to_string(e.asset.fetches)) +
                 cell("frame", formatNumber(shot.milliseconds) + " ms") + cell("cost ratio", ratio(e, shot)) + "</tr>\n";
     }
@@ -97,10 +97,11 @@ std::string fact(const std::string& name, const std::string& value) {
 std::string assetFacts(const AssetFacts& a) {
     return "<dl>" + fact("method, form", escapeHtml(a.method + ", " + a.form)) +
            fact("textures", escapeHtml(a.textures)) + fact("bytes", formatBytes(a.bytes)) +
-           fact("fetches", std::to_string(a.fetches)) + fact("E<sub>L2</sub> to 80°", percent(a.l2Rel)) +
-           fact("E<sub>L2</sub> 80–89°", percent(a.grazingL2Rel)) + fact("E<sub>log</sub>", formatNumber(a.logRms)) +
-           fact("largest relative", percent(a.maxRel)) + fact("lit sphere", psnrText(a.spherePsnr)) +
-           fact("baked in", formatNumber(a.bakeSeconds) + " s") + "</dl>\n";
+           fact("fetches", std::to_string(a.fetches)) + fact("E<sub>L2</sub> to 80°", percent(a.error.l2Rel)) +
+           fact("E<sub>L2</sub> 80–89°", percent(a.error.grazingL2Rel)) +
+           fact("E<sub>log</sub>", formatNumber(a.error.logRms)) + fact("largest relative", percent(a.error.maxRel)) +
+           fact("lit sphere", psnrText(a.error.spherePsnr)) + fact("baked in", formatNumber(a.bakeSeconds) + " s") +
+           "</dl>\n";
 }
 
 std::string referenceFigure(const Entry& e) {

@@ -7,6 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "reference/brdf_metrics.hpp"
+
 namespace nacre {
 
 /// A PNG file's bytes and the name it has beside the page.
@@ -24,14 +26,14 @@ struct Shot {
     double milliseconds = 0;      ///< of one frame, median
 };
 
-/// What is known of the baked asset. Errors as in reference/brdf_metrics.hpp.
+/// What is known of the baked asset.
 struct AssetFacts {
     std::string source, method, form;
     std::string textures;  ///< sizes and storage, for instance `2 × 64² half`
     std::size_t bytes = 0;
     int fetches = 0;
     double bakeSeconds = 0;
-    double l2Rel = 0, logRms = 0, maxRel = 0, grazingL2Rel = 0, spherePsnr = 0;
+    BrdfError error;
 };
 
 struct Entry {

@@ -36,6 +36,13 @@ nlohmann::json shotJson(const Entry& e, const Shot& shot) {
             {"milliseconds", finite(e, "milliseconds", shot.milliseconds)}};
 }
 
+nlohmann::json errorJson(const Entry& e) {
+    const nlohmann::json error = toJson(e.asset.error);
+    for (const auto& [key, value] : error.items())
+        if (key != "energy_seen") finite(e, key.c_str(), value.get<double>());  // that one has no value for formulas
+    return error;
+}
+
 nlohmann::json assetJson(const Entry& e) {
     const AssetFacts& a = e.asset;
     return {{"source", a.source},
@@ -45,12 +52,7 @@ nlohmann::json assetJson(const Entry& e) {
             {"bytes", a.bytes},
             {"fetches", a.fetches},
             {"bake_seconds", finite(e, "bakeSeconds", a.bakeSeconds)},
-            {"error",
-             {{"l2_rel", finite(e, "l2Rel", a.l2Rel)},
-              {"log_rms", finite(e, "logRms", a.logRms)},
-              {"max_rel", finite(e, "maxRel", a.maxRel)},
-              {"grazing_l2_rel", finite(e, "grazingL2Rel", a.grazingL2Rel)},
-              {"sphere_psnr", finite(e, "spherePsnr", a.spherePsnr)}}}};
+            {"error", errorJson(e)}};
 }
 
 nlohmann::json entryJson(const Entry& e) {

@@ -27,8 +27,7 @@ Recipe torus(const char* id, const char* alpha, const char* method, int size, co
     r.caption = caption;
     r.stage = "torus";
     r.white = 1.2;
-    r.bake.source =
-        fmt::format("torrance-sparrow:d=beckmann,g=smith,alpha={},{},ks=0.5,kd=0.3/0.12/0.06", alpha, kCopper);
+    r.source = fmt::format("torrance-sparrow:d=beckmann,g=smith,alpha={},{},ks=0.5,kd=0.3/0.12/0.06", alpha, kCopper);
     r.bake.method = method;
     r.bake.size = size;
     r.allAddressings = std::string(method) == "cosine";
@@ -58,7 +57,7 @@ Recipe figure3(const char* id, const char* stage, const char* title, const char*
     r.title = title;
     r.caption = caption;
     r.stage = stage;
-    r.bake.source = std::move(source);
+    r.source = std::move(source);
     return r;
 }
 
@@ -90,7 +89,7 @@ std::vector<Recipe> figure4() {
                            "bounce; the result was factored like any measurement."
                          : "Same asset, same textures: only the camera and its lights went around.";
         r.stage = r.id;
-        r.bake.source = kRidges;
+        r.source = kRidges;
         r.bake.method = "homomorphic";
         r.white = 0.6;
         list.push_back(r);
@@ -122,7 +121,7 @@ std::vector<Recipe> publishedFits() {
                     "to a material of the MERL database.";
         r.stage = std::string("scan:") + fit.mesh;
         r.white = fit.white;
-        r.bake.source = std::string("sgd:") + fit.material;
+        r.source = std::string("sgd:") + fit.material;
         r.bake.maxBytes = 65536;
         r.bake.maxFetches = 2;
         list.push_back(r);
@@ -150,7 +149,7 @@ std::vector<Recipe> measuredFiles(const std::filesystem::path& folder) {
         r.title = files[i].filename().string();
         r.caption = rgl ? "Measured by the RGL goniophotometer." : "A table of the MERL format.";
         r.stage = std::string("scan:") + kShownFits[i % std::size(kShownFits)].mesh;
-        r.bake.source = files[i].string();
+        r.source = files[i].string();
         r.bake.maxBytes = 65536;
         r.bake.maxFetches = 2;
         list.push_back(r);
@@ -182,26 +181,17 @@ std::string shellQuoted(const std::string& text) {
 }
 
 std::string bakeCommand(const Recipe& recipe) {
-    const Bake& b = recipe.bake;
-    std::string command = fmt::format("nacre factorize {} -o {}.exr", shellQuoted(b.source), recipe.id);
+    const FactorizeOptions& b = recipe.bake;
+    std::string command = fmt::format("nacre factorize {} -o {}.exr", shellQuoted(recipe.source), recipe.id);
     if (b.method != "auto") command += " --method " + b.method;
     if (b.size != 0) command += fmt::format(" --size {}", b.size);
     if (b.terms != 0) command += fmt::format(" --terms {}", b.terms);
+    if (!b.parametrization.empty()) command += " --parametrization " + b.parametrization;
     if (b.format != TexelFormat::Half) command += " --format " + toString(b.format);
+    if (b.maxError) command += fmt::format(" --max-error {}", *b.maxError);
     if (b.maxBytes) command += fmt::format(" --max-bytes {}", *b.maxBytes);
     if (b.maxFetches) command += fmt::format(" --max-fetches {}", *b.maxFetches);
     return command;
-}
-
-FactorizeOptions bakeOptions(const Bake& bake) {
-    FactorizeOptions options;
-    options.method = bake.method;
-    options.size = bake.size;
-    options.terms = bake.terms;
-    options.format = bake.format;
-    options.maxBytes = bake.maxBytes;
-    options.maxFetches = bake.maxFetches;
-    return options;
 }
 
 }  // namespace nacre

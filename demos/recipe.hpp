@@ -9,20 +9,11 @@
 
 namespace nacre {
 
-/// How an entry's asset is baked; the command line and the library call are both made from this.
-struct Bake {
-    std::string source;  ///< as openReflectance takes it
-    std::string method = "auto";
-    int size = 0, terms = 0;  ///< 0 = the method's own choice
-    TexelFormat format = TexelFormat::Half;
-    std::optional<std::size_t> maxBytes;
-    std::optional<int> maxFetches;
-};
-
 struct Recipe {
     std::string id, section, title, caption;
-    std::string stage;  ///< as openStage takes it
-    Bake bake;
+    std::string stage;            ///< as openStage takes it
+    std::string source;           ///< as openReflectance takes it
+    FactorizeOptions bake;        ///< the command line is made from this too
     double white = 0;             ///< radiance shown as white; 0 = pictureWhite of the reference
     bool allAddressings = false;  ///< also per vertex and by texture matrices
 };
@@ -31,9 +22,8 @@ struct Recipe {
 ///                    empty or missing
 std::vector<Recipe> galleryRecipes(const std::filesystem::path& brdfFolder);
 
-/// `nacre factorize SOURCE -o ID.exr …`: bakes what bakeOptions bakes. Quoted for a POSIX shell.
+/// `nacre factorize SOURCE -o ID.exr …`: bakes what recipe.bake says. Quoted for a POSIX shell.
 std::string bakeCommand(const Recipe& recipe);
-FactorizeOptions bakeOptions(const Bake& bake);
 
 /// In single quotes unless it is made of letters, digits and _-+=:,./@% alone.
 std::string shellQuoted(const std::string& text);

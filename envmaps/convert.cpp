@@ -135,6 +135,13 @@ EnvMap mirrorEnvY(const EnvMap& map) {
     });
 }
 
+int matchingSize(const EnvMap& map, EnvLayout layout) {
+    // Texels over a quarter turn: a cube's face has N, the others N/2.
+    if (map.layout == layout) return map.size();
+    const int quarter = map.layout == EnvLayout::Cube ? map.size() : (map.size() + 1) / 2;
+    return layout == EnvLayout::Cube ? quarter : 2 * quarter;
+}
+
 Rgb envEnergy(const EnvMap& map, unsigned threads) {
     const std::vector<double> solidAngles = envSolidAngles(map.layout, map.size(), threads);
     Rgb sum(0);

@@ -24,9 +24,17 @@ std::size_t texturesNeeded(const FactoredBrdf& b) {
         case FactoredForm::Homomorphic:
             return 1u + (b.params[0].w > 0.5f) + (b.params[1].z > 0.5f);
         case FactoredForm::Separable:
-            return 2u * static_cast<std::size_t>(std::clamp(b.params[0].x, 1.0f, 2.0f));
+            return (static_cast<int>(b.params[0].y) == int(SeparableArguments::Symmetric) ? 1u : 2u) *
+                   static_cast<std::size_t>(std::clamp(b.params[0].x, 1.0f, 2.0f));
     }
     return 1;
+}
+
+bool isLayout(float value) {
+    for (const HalfDiffLayout layout :
+         {HalfDiffLayout::Product, HalfDiffLayout::Harmonics, HalfDiffLayout::Compact, HalfDiffLayout::Grazing})
+        if (value == static_cast<float>(layout)) return true;
+    return false;
 }
 
 }  // namespace
@@ -78,6 +86,9 @@ FactoredBrdf factoredFromAsset(const Asset& asset, const std::string& path) {
     } catch (const std::exception& error) {
         throw Error(fmt::format("{}: bad brdf description: {}", path, error.what()));
     }
+    if (out.form == FactoredForm::HalfDiff && !isLayout(out.params[0].y))
+        throw Error(fmt::format("{}: bad brdf description: expected a half_diff layout 0 to 3, found {}", path,
+                                out.params[0].y));
     out.textures = asset.textures;
     const std::size_t needed = texturesNeeded(out);
     if (out.textures.size() != needed)

@@ -4,6 +4,7 @@
 
 #include <array>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "core/math.hpp"
@@ -20,7 +21,7 @@ enum class FactoredForm {
     SingleLobe,   ///< f = (T(s, cosα) − ambient) / cosα                            HSE section 1.1
     Tangent,      ///< f = T(t·l, t·v)                                              Banks, HSE eq. 4
     Homomorphic,  ///< f = D(U,V) + exp(P(i) + P(o) + Q(h) + polynomial(θd) …)      McCool 2001; anisotropic
-    Separable     ///< f = Σ_k U_k(x) · V_k(y)                                      Kautz & McCool 1999
+    Separable     ///< f = Σ_k U_k(x) · V_k(y), or its exponential                  Kautz & McCool 1999
 };
 
 std::string toString(FactoredForm form);  ///< half_diff, cosine, single_lobe, tangent, homomorphic, separable
@@ -34,6 +35,25 @@ enum class HalfDiffLayout {
     Compact,    ///< one fetch:   c0 (T0.r + x T0.g) + c1 T0.b + c2 T0.a
     Grazing     ///< two fetches: Compact + Σ c_k T1_k(U,V)
 };
+
+/// What the two arguments of Separable's factors are.
+enum class SeparableArguments {
+    HalfDifference,  ///< half vector, difference vector: U_k(h) V_k(d), RGB
+    InOut,           ///< U_k(wi) V_k(wo), RGB
+    Symmetric,   ///< A_k(wi) A_k(wo), each of four channels with a colour of either sign: reciprocal by construction
+    HalfCarried  ///< as HalfDifference, the frame of d carried along from the normal: anisotropic lobes
+};
+/// What Separable's textures hold.
+enum class SeparableStorage {
+    Values,     ///< f = max(0, Σ products)
+    Logarithm,  ///< f = exp(Σ products)
+    Factors     ///< logarithms of the factors: each product is exp(U_k + V_k); not for Symmetric, whose have signs
+};
+/// Texture coordinates of both. \param quadrant  of half and difference vector: mirror images share texels
+/// \param inverseWidth  1/width of the half vector's slope map along x and y
+std::pair<glm::vec2, glm::vec2> separableCoordinates(SeparableArguments arguments, bool quadrant,
+                                                     const glm::vec2& inverseWidth, const glm::vec3& wi,
+                                                     const glm::vec3& wo);
 
 inline constexpr int kMaxFactoredTextures = 4;
 inline constexpr int kFactoredParams = 16;  ///< vec4s of constants a form may use

@@ -90,22 +90,36 @@ glm::vec3 homomorphic(const FactoredBrdf& b, const glm::vec3& wi, const glm::vec
 }
 
 glm::vec3 separable(const FactoredBrdf& b, const glm::vec3& wi, const glm::vec3& wo) {
-    glm::vec2 x, y;
-    if (b.params[0].y < 0.5f) {
-        const HalfGeometry g = halfGeometry(wi, wo);
-        x = mapScaledSlope(g.h, glm::vec2(b.params[1]), false);
-        y = mapLambertDisk(differenceVector(g.h, wi), false);
-    } else {
-        x = mapLambertDisk(wi, false);
-        y = mapLambertDisk(wo, false);
-    }
+    const auto arguments = static_cast<SeparableArguments>(static_cast<int>(b.params[0].y));
+    const auto storage = static_cast<SeparableStorage>(static_cast<int>(b.params[0].z));
+    const auto [x, y] = separableCoordinates(arguments, b.params[0].w > 0.5f, glm::vec2(b.params[1]), wi, wo);
     glm::vec3 f(0);
-    for (std::size_t k = 0; 2 * k + 1 < b.textures.size(); ++k)
-        f += glm::vec3(lookup(b.textures[2 * k], x)) * glm::vec3(lookup(b.textures[2 * k + 1], y));
-    return b.params[0].z > 0.5f ? expOf(f) : f;
+    if (arguments == SeparableArguments::Symmetric) {
+        for (std::size_t k = 0; k < b.textures.size(); ++k) {
+            const glm::vec4 a = lookup(b.textures[k], x) * lookup(b.textures[k], y);
+            for (int c = 0; c < 4; ++c) f += glm::vec3(b.params[2 + 4 * k + c]) * a[c];
+        }
+    } else {
+        for (std::size_t k = 0; 2 * k + 1 < b.textures.size(); ++k) {
+            const glm::vec3 u(lookup(b.textures[2 * k], x)), v(lookup(b.textures[2 * k + 1], y));
+            f += storage == SeparableStorage::Factors ? expOf(u + v) : u * v;
+        }
+    }
+    return storage == SeparableStorage::Logarithm ? expOf(f) : glm::max(f, glm::vec3(0));
 }
 
 }  // namespace
+
+std::pair<glm::vec2, glm::vec2> separableCoordinates(SeparableArguments arguments, bool quadrant,
+                                                     const glm::vec2& inverseWidth, const glm::vec3& wi,
+                                                     const glm::vec3& wo) {
+    if (arguments == SeparableArguments::InOut || arguments == SeparableArguments::Symmetric)
+        return {mapLambertDisk(wi, false), mapLambertDisk(wo, false)};
+    const HalfGeometry g = halfGeometry(wi, wo);
+    const glm::vec3 d =
+        arguments == SeparableArguments::HalfCarried ? carriedDifference(g.h, wi) : differenceVector(g.h, wi);
+    return {mapScaledSlope(g.h, inverseWidth, quadrant), mapLambertDisk(d, quadrant)};
+}
 
 Rgb evaluate(const FactoredBrdf& brdf, const Vec3& wiDouble, const Vec3& woDouble) {
     const glm::vec3 wi(wiDouble), wo(woDouble);

@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 
 #include "core/error.hpp"
+#include "factorize/budget_search.hpp"
+#include "factorize/fit_samples.hpp"
 #include "factorize/methods.hpp"
 
 namespace nacre {
@@ -20,7 +22,11 @@ FactoredBrdf bake(const Reflectance& r, const Candidate& c, const FactorizeOptio
     if (c.method == "analytic") return factorizeAnalytic(r, c.sizes, options);
     if (c.method == "fit") return factorizeFit(r, c.layout, c.sizes, options);
     if (c.method == "homomorphic") return factorizeHomomorphic(r, c.sizes, options);
-    if (c.method == "svd") return factorizeSeparable(r, c.sizes, options);
+    if (c.method == "svd") {
+        FactorizeOptions own = options;
+        if (options.method == "auto" && own.parametrization.empty()) own.parametrization = "symmetric";  // see suitable
+        return factorizeSeparable(r, c.sizes, own);
+    }
     if (c.method == "single-lobe") return factorizeSingleLobe(r, c.sizes, options);
     return factorizeTangent(r, c.sizes, options);
 }
@@ -52,7 +58,7 @@ std::vector<Candidate> ladder(const std::string& method) {
         add(square(96, 48));
         add(square(128, 64));
     } else if (method == "svd") {
-        for (int edge : {16, 24, 32, 48}) add(square(edge, edge));
+        for (int edge : {16, 24, 32, 48, 64}) add(square(edge, edge));
     } else {
         for (int edge : {32, 64, 128, 256, 512}) add(square(edge, edge));
     }
@@ -79,8 +85,9 @@ Candidate ofSize(const std::string& method, const FactorizeOptions& options) {
 }
 
 /// Methods that fit the input, best first. `analytic` and the special forms are exact but for interpolation; `fit`
-/// takes any isotropic input; `homomorphic` everything.
-std::vector<std::string> suitable(const Reflectance& r) {
+/// takes any isotropic input; `homomorphic` everything, but relief seen in two colours is a sum of products, which
+/// `svd` over (wi, wo) follows: where neither is known to fit, both are tried.
+std::vector<std::string> suitable(const Reflectance& r, const FactorizeOptions& options) {
     std::vector<std::string> out;
     if (r.tangent) out.push_back("tangent");
     if (r.singleLobe) out.push_back("single-lobe");
@@ -90,15 +97,8 @@ std::vector<std::string> suitable(const Reflectance& r) {
         out.push_back("fit");
     else
         out.push_back("homomorphic");
+    if (!r.isotropic && !r.microfacet && options.terms <= 2 && options.size <= kLargestSeparable) out.push_back("svd");
     return out;
-}
-
-std::string budgetText(const FactorizeOptions& o) {
-    std::string text;
-    if (o.maxError) text += fmt::format(" error <= {}", *o.maxError);
-    if (o.maxBytes) text += fmt::format(" bytes <= {}", *o.maxBytes);
-    if (o.maxFetches) text += fmt::format(" fetches <= {}", *o.maxFetches);
-    return text;
 }
 
 int fetchesOf(const Candidate& c, const FactorizeOptions& options, const Reflectance& r) {
@@ -109,46 +109,113 @@ int fetchesOf(const Candidate& c, const FactorizeOptions& options, const Reflect
     return 2;
 }
 
-/// Texels' bytes before anything is baked: an upper bound for grey models.
+/// Texels' bytes before anything is baked: exact for the fit, a lower bound for the others, in the same proportion to
+/// the exact figure for every size of a ladder.
 std::size_t bytesOf(const Candidate& c, const FactorizeOptions& options) {
     const std::size_t unit = bytesPerChannel(options.format);
     const std::size_t first = static_cast<std::size_t>(c.sizes.first.x) * c.sizes.first.y;
     const std::size_t second = static_cast<std::size_t>(c.sizes.second.x) * c.sizes.second.y;
-    if (c.method == "fit") return unit * 4 * (first + (c.layout == HalfDiffLayout::Harmonics ? second : 0));
-    return unit * first;  // at least: the exact figure is checked after the bake
+    if (c.method == "fit") {
+        const std::size_t secondChannels = c.layout == HalfDiffLayout::Compact   ? 0
+                                           : c.layout == HalfDiffLayout::Grazing ? 3
+                                                                                 : 4;
+        return unit * (4 * first + secondChannels * second);
+    }
+    if (c.method == "analytic" || c.method == "cosine") return unit * (first + second);
+    const bool symmetric =
+        options.parametrization.empty() ? options.method == "auto" : options.parametrization == "symmetric";
+    if (c.method == "svd") return unit * first * (options.terms == 1 ? 1 : 2) * (symmetric ? 4 : 6);
+    return unit * first;
 }
 
-/// With a bound on the error: from small to large, the first that meets it. Without: the largest within bytes and
-/// fetches.
+/// An explicit number of terms decides the layout of the fit: false for sizes of the others.
+bool withTerms(Candidate& c, const FactorizeOptions& options) {
+    if (c.method != "fit" || options.terms == 0) return true;
+    const HalfDiffLayout wanted = ofSize(c.method, options).layout;
+    if ((c.layout == HalfDiffLayout::Compact) != (wanted == HalfDiffLayout::Compact)) return false;
+    c.layout = wanted;
+    return true;
+}
+
+/// √(0.3 E_log² + E_L2²) below 80°, the loss of the fits.
+double lossOf(const FactoredBrdf& brdf, const Reflectance& r, unsigned threads) {
+    FitSampleOptions sampling{40000, glm::dvec2(lobeHalfWidth(r.f)), r.isotropic, 80 * kPi / 180, threads};
+    constexpr double kEpsilon = 1e-3;
+    double gap = 0, square = 0, logGap = 0, measure = 0;
+    for (const FitSample& s : fitSamples(r.f, sampling)) {
+        const Rgb f = glm::max(evaluate(brdf, s.wi, s.wo), Rgb(0)), truth(s.value);
+        const Rgb d = f - truth, l = glm::log((f + kEpsilon) / (truth + kEpsilon));
+        gap += s.measure * glm::dot(d, d);
+        square += s.measure * glm::dot(truth, truth);
+        logGap += s.measure * glm::dot(l, l);
+        measure += 3.0 * s.measure;
+    }
+    return std::sqrt(0.3 * logGap / measure + gap / std::max(square, 1e-30));
+}
+
+/// The one nearer to the truth; a later one, with more fetches, must be nearer by a fifth.
+FactoredBrdf nearest(std::vector<FactoredBrdf> baked, const Reflectance& r, const FactorizeOptions& options) {
+    constexpr double kWorthAFetch = 0.8;
+    std::size_t best = 0;
+    for (std::size_t i = 1; i < baked.size(); ++i)
+        if (lossOf(baked[i], r, options.threads) < kWorthAFetch * lossOf(baked[best], r, options.threads)) best = i;
+    return std::move(baked[best]);
+}
+
 FactoredBrdf withinBudget(const Reflectance& r, const std::vector<std::string>& methods,
                           const FactorizeOptions& options) {
-    std::vector<Candidate> candidates;
+    std::vector<BudgetCandidate> candidates;
     for (const std::string& method : methods)
-        for (const Candidate& c : ladder(method))
-            if ((!options.maxBytes || bytesOf(c, options) <= *options.maxBytes) &&
-                (!options.maxFetches || fetchesOf(c, options, r) <= *options.maxFetches))
-                candidates.push_back(c);
-    std::stable_sort(candidates.begin(), candidates.end(),
-                     [&](const Candidate& a, const Candidate& b) { return bytesOf(a, options) < bytesOf(b, options); });
-    if (!options.maxError) std::reverse(candidates.begin(), candidates.end());
+        for (Candidate c : ladder(method))
+            if (withTerms(c, options))
+                candidates.push_back({fmt::format("{} {}", c.method, static_cast<int>(c.layout)), bytesOf(c, options),
+                                      fetchesOf(c, options, r), [&r, &options, c] { return bake(r, c, options); }});
+    return searchBudget(r.source, std::move(candidates), options);
+}
 
-    double nearest = std::numeric_limits<double>::infinity();
-    std::string nearestText = "nothing that small exists";
-    for (const Candidate& c : candidates) {
-        FactoredBrdf brdf = bake(r, c, options);
-        const bool small = (!options.maxBytes || brdf.bytes() <= *options.maxBytes) &&
-                           (!options.maxFetches || brdf.fetches <= *options.maxFetches);
-        if (small && !options.maxError) return brdf;
-        if (!small) continue;
-        const double error = options.measure(brdf);
-        if (error <= *options.maxError) return brdf;
-        if (error < nearest) {
-            nearest = error;
-            nearestText = fmt::format("nearest: {} with error {:.4g}, {} bytes, {} fetches", c.method, error,
-                                      brdf.bytes(), brdf.fetches);
+/// Each method's largest within bytes and fetches, and the nearest of those.
+FactoredBrdf nearestWithinBudget(const Reflectance& r, const std::vector<std::string>& methods,
+                                 const FactorizeOptions& options) {
+    std::vector<FactoredBrdf> baked;
+    for (const std::string& method : methods) {
+        try {
+            baked.push_back(withinBudget(r, {method}, options));
+        } catch (const Error&) {  // another method may be small enough
         }
     }
-    throw Error(fmt::format("{}: no representation within{}; {}", r.source, budgetText(options), nearestText));
+    if (baked.empty()) return withinBudget(r, methods, options);  // says how near all of them came
+    return nearest(std::move(baked), r, options);
+}
+
+/// An option that not every method has.
+struct SpecialOption {
+    std::string name;
+    std::vector<std::string> methods;  ///< that use it
+    bool isSet;
+    bool isUsedBy(const std::string& method) const {
+        return std::find(methods.begin(), methods.end(), method) != methods.end();
+    }
+    std::string complaint(const std::string& found) const {
+        return fmt::format("{}: only {} {} it, found method {}", name, fmt::join(methods, " and "),
+                           methods.size() == 1 ? "takes" : "take", found);
+    }
+};
+
+std::vector<SpecialOption> specialOptions(const FactorizeOptions& o) {
+    return {{"terms", {"fit", "svd"}, o.terms != 0}, {"parametrization", {"svd"}, !o.parametrization.empty()}};
+}
+
+/// The method asked for; for auto those that fit the input and use every option that is set.
+std::vector<std::string> methodsFor(const Reflectance& r, const FactorizeOptions& options) {
+    if (options.method != "auto") return {options.method};
+    std::vector<std::string> out = suitable(r, options);
+    for (const SpecialOption& option : specialOptions(options)) {
+        if (!option.isSet) continue;
+        const std::string considered = fmt::format("auto, which chooses among {} here", fmt::join(out, ", "));
+        std::erase_if(out, [&](const std::string& method) { return !option.isUsedBy(method); });
+        require(!out.empty(), option.complaint(considered));
+    }
+    return out;
 }
 
 void checkOptions(const FactorizeOptions& options) {
@@ -157,6 +224,8 @@ void checkOptions(const FactorizeOptions& options) {
     require(options.terms >= 0 && options.terms <= 3,
             fmt::format("factorize: terms must be 1 to 3, found {}", options.terms));
     require(!options.maxError || options.measure, "factorize: a bound on the error needs a measure");
+    const std::optional<std::string> unused = unusedOption(options);
+    require(!unused, unused.value_or(""));
     if (options.method == "auto") return;
     std::string known = "auto";
     for (const FactorizeMethod& m : factorizeMethods()) {
@@ -176,27 +245,39 @@ std::vector<FactorizeMethod> factorizeMethods() {
          "isotropic microfacet models"},
         {"fit", "logarithmic tables over half and difference angle with harmonics in the azimuth", "isotropic input"},
         {"homomorphic", "diffuse + exp(P(wi) + Q(h) + P(wo)) with Fresnel and elevations as arithmetic", "any input"},
-        {"svd", "sum of products of two textures, half/difference or in/out", "any input"},
+        {"svd", "sum of products of two textures, half/difference, in/out or symmetric", "any input"},
         {"single-lobe", "one texture with specular, diffuse and ambient terms", "phong, blinn-phong, cosine-lobe"},
         {"tangent", "one texture over the two angles to the tangent", "banks"}};
 }
 
+std::optional<std::string> unusedOption(const FactorizeOptions& options) {
+    if (options.method == "auto") return {};
+    for (const SpecialOption& option : specialOptions(options))
+        if (option.isSet && !option.isUsedBy(options.method)) return option.complaint(options.method);
+    return {};
+}
+
 FactoredBrdf factorize(const Reflectance& r, const FactorizeOptions& options) {
     checkOptions(options);
-    const std::vector<std::string> methods =
-        options.method == "auto" ? suitable(r) : std::vector<std::string>{options.method};
-    if (options.size != 0) {
-        const Candidate c = ofSize(methods.front(), options);
+    const std::vector<std::string> methods = methodsFor(r, options);
+    // The methods before others are the better ones, but for svd, which auto only names where neither is known to be.
+    const bool together = methods.back() == "svd";
+    if (options.size == 0) {
+        if (options.maxError) return withinBudget(r, methods, options);
+        if (options.maxBytes || options.maxFetches)
+            return together ? nearestWithinBudget(r, methods, options) : withinBudget(r, methods, options);
+    }
+    std::vector<FactoredBrdf> baked;
+    for (const std::string& method : methods) {
+        Candidate c = options.size != 0 ? ofSize(method, options) : usual(method, r);
+        if (options.terms != 0) c.layout = ofSize(method, options).layout;
         if (options.maxBytes && bytesOf(c, options) > *options.maxBytes)
             throw Error(fmt::format("{}: expected at most {} bytes, found {} or more for size {}", r.source,
                                     *options.maxBytes, bytesOf(c, options), options.size));
-        return bake(r, c, options);
+        baked.push_back(bake(r, c, options));
+        if (!together) break;
     }
-    const bool budget = options.maxError || options.maxBytes || options.maxFetches;
-    if (budget) return withinBudget(r, methods, options);
-    Candidate c = usual(methods.front(), r);
-    if (options.terms != 0) c.layout = ofSize(c.method, options).layout;
-    return bake(r, c, options);
+    return nearest(std::move(baked), r, options);
 }
 
 }  // namespace nacre

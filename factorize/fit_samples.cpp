@@ -85,4 +85,15 @@ double lobeHalfWidth(const BrdfFunction& f) {
     return std::clamp(std::tan(theta), 1e-3, 1.0);
 }
 
+bool isQuadrantSymmetric(const BrdfFunction& f) {
+    for (std::uint64_t i = 1; i <= 200; ++i) {
+        const Vec3 wi = cosineHemisphere({radicalInverse(i, 2), radicalInverse(i, 3)});
+        const Vec3 wo = cosineHemisphere({radicalInverse(i, 5), radicalInverse(i, 7)});
+        const double scale = 1e-3 + maxComponent(f(wi, wo));
+        for (const Vec3& mirror : {Vec3(-1, 1, 1), Vec3(1, -1, 1)})
+            if (maxComponent(glm::abs(f(mirror * wi, mirror * wo) - f(wi, wo))) > 1e-3 * scale) return false;
+    }
+    return true;
+}
+
 }  // namespace nacre

@@ -26,4 +26,7 @@ std::vector<FitSample> fitSamples(const BrdfFunction& f, const FitSampleOptions&
 /// width, in [1e-3, 1].
 double lobeHalfWidth(const BrdfFunction& f);
 
+/// f(mirrored wi, mirrored wo) = f for mirrors in x and in y, on a few pairs.
+bool isQuadrantSymmetric(const BrdfFunction& f);
+
 }  // namespace nacre

@@ -4,9 +4,7 @@
 #include <fmt/format.h>
 #include <Eigen/Dense>
 
-#include "core/directions.hpp"
 #include "core/error.hpp"
-#include "core/sampling.hpp"
 #include "factorize/fit_samples.hpp"
 #include "factorize/log_table_fit.hpp"
 #include "factorize/mappings.hpp"
@@ -62,18 +60,6 @@ void fitPolynomial(const MicrofacetPieces& pieces, Arithmetic& a) {
     }
     const Eigen::MatrixXd x = powers.colPivHouseholderQr().solve(values);
     for (int k = 0; k < kPolynomial; ++k) a.polynomial[k] = glm::vec3(x(k, 0), x(k, 1), x(k, 2));
-}
-
-/// f(mirrored wi, mirrored wo) = f for mirrors in x and in y, on a few pairs.
-bool isQuadrantSymmetric(const BrdfFunction& f) {
-    for (std::uint64_t i = 1; i <= 200; ++i) {
-        const Vec3 wi = cosineHemisphere({radicalInverse(i, 2), radicalInverse(i, 3)});
-        const Vec3 wo = cosineHemisphere({radicalInverse(i, 5), radicalInverse(i, 7)});
-        const double scale = 1e-3 + maxComponent(f(wi, wo));
-        for (const Vec3& mirror : {Vec3(-1, 1, 1), Vec3(1, -1, 1)})
-            if (maxComponent(glm::abs(f(mirror * wi, mirror * wo) - f(wi, wo))) > 1e-3 * scale) return false;
-    }
-    return true;
 }
 
 LogTableModel makeModel(const Plan& plan, const TextureSizes& sizes) {

@@ -59,20 +59,25 @@ public:
         sumSquare_ = std::max(sumSquare_, 1e-30);  // an all-black BRDF has no L2 scale
     }
 
-    /// Loss at the current texels; keeps the Gauss–Newton curvature and gradient of every sample and channel.
+    /// Loss at the current texels; keeps the Gauss–Newton curvature and gradient of every sample and channel, and where
+    /// lookups multiply, each one's derivative: the other's value.
     double linearise() {
         return parallelSum(kChunks, threads_, [&](std::size_t chunk) {
             double sum = 0;
             for (std::size_t i = begin(chunk); i < begin(chunk + 1); ++i) {
                 const FitSample& s = samples_[i];
-                const glm::vec3 y = forward(i, values) + s.offset;
+                const glm::vec3 y = (model_.products ? multiply(i) : forward(i, values)) + s.offset;
                 const double logScale = kLogWeight * s.measure / sumMeasure_, l2Scale = s.measure / sumSquare_;
                 for (int c = 0; c < 3; ++c) {
-                    const double e = std::exp(std::min(y[c], kMaxExponent)), f = s.base[c] + e, truth = s.value[c];
-                    const double logSlope = e / (f + kEpsilon), logGap = std::log((f + kEpsilon) / (truth + kEpsilon));
+                    const double e = model_.exponential ? std::exp(std::min(y[c], kMaxExponent)) : y[c];
+                    const double slope = model_.exponential ? e : 1;  // df̂/dy
+                    const double f = s.base[c] + e, truth = s.value[c], seen = std::max(f, 0.0) + kEpsilon;
+                    const double logSlope = slope / seen;
+                    // Below 0 the logarithm goes on along its tangent at 0.
+                    const double logGap = std::log(seen / (truth + kEpsilon)) + std::min(f, 0.0) / kEpsilon;
                     const double gap = f - truth;
-                    curvature_[i][c] = static_cast<float>(logScale * logSlope * logSlope + l2Scale * e * e);
-                    gradient_[i][c] = static_cast<float>(-(logScale * logSlope * logGap + l2Scale * e * gap));
+                    curvature_[i][c] = static_cast<float>(logScale * logSlope * logSlope + l2Scale * slope * slope);
+                    gradient_[i][c] = static_cast<float>(-(logScale * logSlope * logGap + l2Scale * slope * gap));
                     sum += logScale * logGap * logGap + l2Scale * gap * gap;
                 }
             }
@@ -150,14 +155,30 @@ private:
         const std::size_t n = static_cast<std::size_t>(model_.lookupCount);
         return std::span<const Tap>(taps_).subspan(i * n, n);
     }
+    static float filtered(const Tap& tap, int ch, const Floats& p) {
+        float value = 0;
+        for (int k = 0; k < 4; ++k) value += tap.bilinear[k] * p[tap.texel[k] + ch];
+        return value;
+    }
     glm::vec3 forward(std::size_t i, const Floats& p) const {
         glm::vec3 y(0);
         for (const Tap& tap : taps(i))
-            for (int ch = 0; ch < tap.table->channels; ++ch) {
-                float value = 0;
-                for (int k = 0; k < 4; ++k) value += tap.bilinear[k] * p[tap.texel[k] + ch];
-                y += value * tap.weight[ch] * tap.table->color[ch];
+            for (int ch = 0; ch < tap.table->channels; ++ch)
+                y += filtered(tap, ch, p) * tap.weight[ch] * tap.table->color[ch];
+        return y;
+    }
+    /// Σ a·b·color of sample i; d(ab) = b da + a db goes into the taps' weights.
+    glm::vec3 multiply(std::size_t i) {
+        const std::size_t n = static_cast<std::size_t>(model_.lookupCount);
+        glm::vec3 y(0);
+        for (std::size_t k = 0; k + 1 < n; k += 2) {
+            Tap &a = taps_[i * n + k], &b = taps_[i * n + k + 1];
+            for (int ch = 0; ch < a.table->channels; ++ch) {
+                b.weight[ch] = filtered(a, ch, values);
+                a.weight[ch] = filtered(b, ch, values);
+                y += a.weight[ch] * b.weight[ch] * a.table->color[ch];
             }
+        }
         return y;
     }
     void scatter(std::size_t i, const glm::vec3& z, Floats& out) const {

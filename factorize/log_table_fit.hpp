@@ -1,5 +1,6 @@
 // Fits textures whose values add up to the logarithm of a BRDF, through the bilinear filter that will read them:
 //   f̂(s) = base(s) + exp(offset(s) + Σ_lookups Σ_ch weight_ch · texture(uv)_ch · color_ch)
+// or, for separable forms, whose values multiply in pairs, Σ_pairs Σ_ch a_ch · b_ch · color_ch, with exp or without.
 // Gauss–Newton with conjugate gradients on loss = 0.3 · E_log² + E_L2² (both defined in reference/README.md). The study
 // behind the choice of loss and domain is summed up in factorize/README.md.
 #pragma once
@@ -45,6 +46,8 @@ struct FitSample {
 struct LogTableModel {
     std::vector<FitTable> tables;
     int lookupCount = 1;
+    bool products = false;    ///< lookups 2j and 2j+1 multiply, channel by channel, coloured as the first; weights 1
+    bool exponential = true;  ///< false: f̂ = base + offset + sum, which may come out below 0; the loss leads it back
     /// Writes lookupCount lookups for a sample. Thread-safe.
     std::function<void(const FitSample&, std::span<FitLookup>)> lookups;
 };

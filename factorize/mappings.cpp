@@ -63,6 +63,12 @@ glm::vec3 differenceVector(const glm::vec3& h, const glm::vec3& wi) {
     return {glm::dot(wi, x), glm::dot(wi, y), glm::dot(wi, h)};
 }
 
+glm::vec3 carriedDifference(const glm::vec3& h, const glm::vec3& wi) {
+    const float cosD = glm::dot(wi, h);
+    const float along = (cosD + wi.z) / (1.0f + h.z);  // v − v·(h + z)/(1 + h·z) (h + z) + 2 (v·h) z
+    return {wi.x - along * h.x, wi.y - along * h.y, cosD};
+}
+
 float smithDenominator(SmithShadowing shadowing, const glm::vec2& width, const glm::vec3& wi, const glm::vec3& wo) {
     if (shadowing == SmithShadowing::None) return 1;
     const glm::vec3 scale(width, 1.0f);

@@ -46,6 +46,9 @@ inline glm::vec2 mapTangent(float tDotL, float tDotV) {
 /// wi in the half vector's frame (pole h, x axis towards the normal's projection): Rusinkiewicz's d, for separable
 /// tables over (h, d).
 glm::vec3 differenceVector(const glm::vec3& h, const glm::vec3& wi);
+/// wi turned by the smallest rotation that takes h to the normal: d's azimuth is then nearly wi's where h is near the
+/// normal, which suits anisotropic lobes. Smooth at h = n.
+glm::vec3 carriedDifference(const glm::vec3& h, const glm::vec3& wi);
 
 /// Texture coordinate of a mapping's value: 0 → centre of the first texel, 1 → of the last.
 inline float toTexelCentres(float u, int size) {

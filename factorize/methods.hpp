@@ -27,7 +27,10 @@ FactoredBrdf factorizeFit(const Reflectance& r, HalfDiffLayout layout, const Tex
 /// map for h, a polynomial for Fresnel, and the diffuse term apart. Isotropic or anisotropic.
 FactoredBrdf factorizeHomomorphic(const Reflectance& r, const TextureSizes& sizes, const FactorizeOptions& options);
 
-/// Separable decomposition by SVD, Kautz & McCool 1999: terms 1 or 2, over (h, d) or (wi, wo).
+inline constexpr int kLargestSeparable = 256;  ///< edge: more texels than the fit's samples can fill
+
+/// Sums of products, Kautz & McCool 1999: terms 1 or 2, over (h, d), (wi, wo), or symmetric in those. Weighted SVD on a
+/// coarse grid, then fitted through the bilinear filter; values, or logarithms where those come nearer.
 FactoredBrdf factorizeSeparable(const Reflectance& r, const TextureSizes& sizes, const FactorizeOptions& options);
 
 /// One texture for Phong, Blinn–Phong and cosine lobes, diffuse and ambient terms inside.

@@ -60,6 +60,9 @@ struct Reflectance {
     DataReport data;
     /// E_L2 of the raw data against itself with wi and wo swapped; NaN where the source is reciprocal by construction.
     double reciprocityResidual = std::numeric_limits<double>::quiet_NaN();
+    /// ∫ f² dμ over θi, θo ≤ 80° (dμ = cosθi cosθo dωi dωo, channels summed) from a table's own cells. NaN where nobody
+    /// counted: formulas, and tables with cells so wide that no sampling misses one.
+    double energy = std::numeric_limits<double>::quiet_NaN();
     /// Analytic models fill those that apply.
     std::optional<MicrofacetPieces> microfacet;
     std::optional<SingleLobePieces> singleLobe;

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <limits>
+#include <nlohmann/json.hpp>
 #include <string>
 
 #include "core/error.hpp"
@@ -136,10 +137,20 @@ BrdfError measureBrdf(const BrdfFunction& approximate, const BrdfFunction& truth
     error.grazingL2Rel = relativeL2(sums.grazing, sums.grazingTruth);
     error.spherePsnr = spherePsnr(approximate, truth, options.threads);
     error.albedoMaxAbs = albedoMaxAbs(approximate, truth, options.isotropic ? 1 : 4, options.threads);
+    if (options.truthEnergy > 0)
+        error.energySeen = sums.bodyTruth / static_cast<double>(options.samples) / options.truthEnergy;
     error.samples = sums.samples;
     error.negative = sums.negative;
     error.nonFinite = sums.nonFinite;
     return error;
+}
+
+nlohmann::json toJson(const BrdfError& e) {
+    return {{"l2_rel", e.l2Rel},           {"log_rms", e.logRms},
+            {"max_rel", e.maxRel},         {"grazing_l2_rel", e.grazingL2Rel},
+            {"sphere_psnr", e.spherePsnr}, {"albedo_max_abs", e.albedoMaxAbs},
+            {"energy_seen", e.energySeen}, {"samples", e.samples},
+            {"negative", e.negative},      {"non_finite", e.nonFinite}};
 }
 
 }  // namespace nacre

@@ -4,6 +4,8 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
+#include <nlohmann/json_fwd.hpp>
 #include <vector>
 
 #include "factorize/reflectance.hpp"
@@ -14,7 +16,8 @@ struct BrdfMetricOptions {
     std::uint64_t samples = 200000;  ///< pairs drawn, 2 to 2^32; those below the horizon are drawn too
     bool isotropic = true;           ///< of the truth; decides whether the albedo is asked at one azimuth or at four
     unsigned threads = 0;            ///< 0 = all cores, same bits for any
-    std::uint64_t seed = 0;          ///< shifts the points; two seeds show how far the estimates have converged
+    double truthEnergy = std::numeric_limits<double>::quiet_NaN();  ///< Reflectance::energy
+    std::uint64_t seed = 0;  ///< shifts the points; two seeds show how far the estimates have converged
 };
 
 /// Samples that suffice for a search over many candidates: l2_rel within a few per cent of its converged value.
@@ -34,16 +37,25 @@ struct BrdfError {
     double spherePsnr = 0;
     /// max |∫(f̂−f) cosθi dωi| over 16 θo between 2.8° and 87.2° (and 4 φo unless isotropic) and channels.
     double albedoMaxAbs = 0;
+    /// Share of options.truthEnergy that the pairs of the L2 see: 1 within a few per cent. Far from 1, the truth has
+    /// peaks between the pairs, and the errors here say little. NaN without truthEnergy.
+    double energySeen = std::numeric_limits<double>::quiet_NaN();
     std::uint64_t samples = 0;    ///< pairs with θi, θo ≤ 80° that entered
     std::uint64_t negative = 0;   ///< pairs (of all, up to 90°) with a channel of f̂ < 0
     std::uint64_t nonFinite = 0;  ///< pairs (of all, up to 90°) with a channel of f̂ that is no finite number
 };
+
+/// energySeen further from 1 than this is worth a warning: what is not seen then matters to the L2.
+inline constexpr double kEnergyTolerance = 0.2;
 
 /// All of the above. A non-finite f̂ makes the errors of its region infinite (the PSNR −∞), never skipped; one beyond
 /// 89° counts as grazing. Cost: about samples/2 + 40 000 evaluations of both, 230 000 more when anisotropic. \throws
 /// std::invalid_argument when samples is out of range, or the truth is negative or not finite somewhere
 BrdfError measureBrdf(const BrdfFunction& approximate, const BrdfFunction& truth,
                       const BrdfMetricOptions& options = {});
+
+/// The fields by the names of README.md: l2_rel, log_rms, … Numbers that are not finite stay so (written: null).
+nlohmann::json toJson(const BrdfError& error);
 
 /// The truth at the points of comparison, evaluated once for many candidates.
 struct TruthSample {

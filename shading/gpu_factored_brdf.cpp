@@ -26,7 +26,7 @@ std::vector<Place> selectors(FactoredForm form) {
         case FactoredForm::Homomorphic:
             return {{0, 2}, {0, 3}, {1, 2}, {2, 3}};  // quadrant, textures, Smith
         case FactoredForm::Separable:
-            return {{0, 0}, {0, 1}, {0, 2}};  // terms, arguments, logarithmic
+            return {{0, 0}, {0, 1}, {0, 2}, {0, 3}};  // terms, arguments, storage, quadrant
         case FactoredForm::Cosine:
         case FactoredForm::Tangent:
             break;

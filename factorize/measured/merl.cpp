@@ -3,12 +3,15 @@
 #include <fmt/format.h>
 
 #include <array>
+#include <bit>
 #include <cstring>
 #include <memory>
+#include <numeric>
 
 #include "core/directions.hpp"
 #include "core/error.hpp"
 #include "core/file.hpp"
+#include "core/parallel.hpp"
 
 namespace nacre {
 
@@ -167,6 +170,43 @@ static void symmetrise(MerlTable& table, const std::vector<std::uint8_t>& measur
     table.mirrorResidual = total > 0 ? std::sqrt(gap / total) : 0;
 }
 
+/// Mean of |f|² over a block between eight centres, f trilinear: along one axis (a² + ab + b²)/3, hence
+/// Σ_ij v_i·v_j / (27 · 2^(axes on which i and j differ)).
+static double meanSquare(const std::array<glm::vec3, 8>& corner) {
+    double sum = 0;
+    for (unsigned i = 0; i < 8; ++i)
+        for (unsigned j = 0; j < 8; ++j)
+            sum += glm::dot(corner[i], corner[j]) / static_cast<float>(1 << std::popcount(i ^ j));
+    return sum / 27;
+}
+
+/// The blocks between the centres `h` and `h` + 1 of θh. dωi dωo = 4 cosθd sinθh sinθd dθh dφh dθd dφd, θh = (π/2)u².
+static double energyOfRow(const MerlTable& table, int h) {
+    const double u = (h + 1.0) / kMerlThetaH, thetaH = kPi / 2 * u * u;
+    const double volume = kPi * u / kMerlThetaH * (kPi / 2 / kMerlThetaD) * (kPi / kMerlPhiD) * 2 * kPi;
+    double sum = 0;
+    for (int d = 0; d + 1 < kMerlThetaD; ++d)
+        for (int p = 0; p < kMerlPhiD; ++p) {
+            const double thetaD = kPi / 2 * (d + 1.0) / kMerlThetaD, phiD = kPi * (p + 1.0) / kMerlPhiD;
+            const double rise = std::cos(thetaH) * std::cos(thetaD),
+                         tilt = std::sin(thetaH) * std::sin(thetaD) * std::cos(phiD);
+            if (rise - std::abs(tilt) < std::cos(80 * kPi / 180)) continue;
+            std::array<glm::vec3, 8> corner;
+            for (int i = 0; i < 8; ++i)
+                corner[static_cast<std::size_t>(i)] =
+                    table.cells[cellIndex(h + (i & 1), d + (i >> 1 & 1), (p + (i >> 2)) % kMerlPhiD)];
+            sum += (rise * rise - tilt * tilt) * 4 * std::cos(thetaD) * std::sin(thetaH) * std::sin(thetaD) *
+                   meanSquare(corner);
+        }
+    return 2 * volume * sum;  // φd runs over 2π, the table over π
+}
+
+static double energyOf(const MerlTable& table) {
+    std::vector<double> rows(kMerlThetaH - 1);
+    parallelFor(rows.size(), 0, [&](std::size_t h) { rows[h] = energyOfRow(table, static_cast<int>(h)); });
+    return std::accumulate(rows.begin(), rows.end(), 0.0);
+}
+
 MerlTable parseMerl(std::span<const std::uint8_t> bytes, const std::string& name) {
     checkSize(bytes, name);
     MerlTable table;
@@ -184,6 +224,7 @@ MerlTable parseMerl(std::span<const std::uint8_t> bytes, const std::string& name
     const std::vector<std::uint8_t> measured = state;
     fillOpenCells(table, state);
     symmetrise(table, measured);
+    table.energy = energyOf(table);
     return table;
 }
 
@@ -240,6 +281,7 @@ Reflectance openMerl(const std::filesystem::path& path) {
     out.hash = contentHash({reinterpret_cast<const char*>(bytes.data()), bytes.size()});
     out.data = table->data;
     out.reciprocityResidual = table->mirrorResidual;
+    out.energy = table->energy;
     out.f = [table](const Vec3& wi, const Vec3& wo) { return evaluate(*table, wi, wo); };
     return out;
 }

@@ -23,6 +23,7 @@ struct MerlTable {
     /// E_L2 of the raw cells against their mirror images, φd → π − φd, within 80°: exchanging the two elevations of a
     /// pair is that mirror, for φd + π is the same cell by format.
     double mirrorResidual = 0;
+    double energy = 0;  ///< Reflectance::energy of the trilinear function, exact within a block of eight centres
 };
 
 /// Parses a file's bytes: int32 90, 90, 180, then three channels of kMerlCells little-endian doubles, to be multiplied

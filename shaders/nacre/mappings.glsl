@@ -75,6 +75,12 @@ vec3 nacre_difference_vector(vec3 h, vec3 wi) {
     return vec3(dot(wi, x), dot(wi, y), dot(wi, h));
 }
 
+// wi turned by the smallest rotation that takes h to the normal
+vec3 nacre_carried_difference(vec3 h, vec3 wi) {
+    float cosD = dot(wi, h);
+    return vec3(wi.xy - (cosD + wi.z) / (1.0 + h.z) * h.xy, cosD);
+}
+
 float nacre_smith_denominator(float shadowing, vec2 width, vec3 wi, vec3 wo) {
     if (shadowing < 0.5) return 1.0;
     vec3 scale = vec3(width, 1.0);

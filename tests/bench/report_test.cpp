@@ -119,7 +119,12 @@ TEST(BenchPlot, NoPointsGiveAnEmptyPlot) {
 }
 
 TEST(BenchSweep, SettingsAreWordsThatTellThemApart) {
-    EXPECT_EQ(text({"fit", 64, 2, TexelFormat::Unorm8, 1000, 2}),
+    EXPECT_EQ(text({.method = "fit",
+                    .size = 64,
+                    .terms = 2,
+                    .format = TexelFormat::Unorm8,
+                    .maxBytes = 1000,
+                    .maxFetches = 2}),
               "fit 64, 2 terms, unorm8, at most 1000 bytes, at most 2 fetches");
     EXPECT_EQ(text({}), "auto");
 }

@@ -40,6 +40,7 @@ std::vector<std::string> bake(const std::filesystem::path& output, std::vector<s
 TEST(CommandUsage, HelpOfEveryVerbGoesToStandardOutput) {
     for (const std::vector<std::string>& words : {std::vector<std::string>{"--help"},
                                                   {"factorize", "--help"},
+                                                  {"envmap", "--help"},
                                                   {"info", "--help"},
                                                   {"eval", "--help"},
                                                   {"models", "--help"},
@@ -55,7 +56,7 @@ TEST(CommandUsage, HelpOfEveryVerbGoesToStandardOutput) {
 
 TEST(CommandUsage, WrongUsageIsExitTwo) {
     const Scratch scratch;
-    expectFailure(nacre({}), 2, {"expected a verb", "factorize, info, eval, models, methods"});
+    expectFailure(nacre({}), 2, {"expected a verb", "factorize, envmap, info, eval, models, methods"});
     expectFailure(nacre({"frobnicate"}), 2, {"'frobnicate'", "factorize"});
     expectFailure(nacre({"factorize", "lambert"}), 2, {"--output is required"});
     expectFailure(nacre({"info"}), 2, {"file"});
@@ -90,6 +91,35 @@ TEST(CommandModels, ListsNamesRangesAndDefaults) {
     EXPECT_GE(json::parse(nacre({"methods", "--json"}).out).size(), 1u);
 }
 
+TEST(CommandModels, ListingsFitAHundredColumns) {
+    for (const char* verb : {"models", "methods"}) {
+        std::istringstream lines(nacre({verb}).out);
+        for (std::string line; std::getline(lines, line);) {
+            const auto starts = std::count_if(line.begin(), line.end(), [](char c) { return (c & 0xc0) != 0x80; });
+            EXPECT_LE(starts, 100) << line;
+        }
+    }
+    EXPECT_THAT(nacre({"models", "sgd"}).out, HasSubstr("; default gold-paint\n")) << "a range longer than a line";
+}
+
+TEST(CommandFactorize, OutputThatIsNoExrIsWrongUsage) {
+    const Scratch scratch;
+    expectFailure(nacre(bake(scratch / "x.png")), 2, {"x.png: expected a name that ends in .exr, found .png"});
+    expectFailure(nacre(bake(scratch / "x")), 2, {"expected a name that ends in .exr, found no ending"});
+    EXPECT_EQ(scratch.fileCount(), 0u);
+    EXPECT_EQ(nacre(bake(scratch / "x.EXR")).code, 0);
+}
+
+TEST(CommandFactorize, OptionThatTheMethodLacksIsWrongUsage) {
+    const Scratch scratch;
+    expectFailure(nacre(bake(scratch / "a.exr", {"--method", "single-lobe", "--parametrization", "in_out"})), 2,
+                  {"--parametrization: only svd takes it, found method single-lobe"});
+    expectFailure(nacre(bake(scratch / "a.exr", {"--method", "cosine", "--terms", "2"})), 2,
+                  {"--terms: only fit and svd take it, found method cosine"});
+    expectFailure(nacre(bake(scratch / "a.exr", {"--parametrization", "in_out"})), 2, {"only svd takes it", "auto"});
+    EXPECT_EQ(scratch.fileCount(), 0u);
+}
+
 TEST(CommandFactorize, JsonHasWhatTheDocumentationNames) {
     const Scratch scratch;
     const Outcome outcome = nacre(bake(scratch / "a.exr", {"--json"}));
@@ -121,8 +151,11 @@ TEST(CommandFactorize, BudgetThatCannotBeMetFails) {
     const Scratch scratch;
     expectFailure(nacre(bake(scratch / "a.exr", {"--size", "64", "--max-bytes", "100"})), 1, {"at most 100 bytes"});
     expectFailure(nacre(bake(scratch / "a.exr", {"--size", "8", "--max-error", "1e-9"})), 1, {"l2_rel <= 1e-09"});
-    const Outcome outcome = nacre(bake(scratch / "a.exr", {"--max-bytes", "1", "--max-error", "1e-9"}));
-    EXPECT_EQ(outcome.code, 1) << outcome.err;
+    expectFailure(nacre(bake(scratch / "a.exr", {"--max-bytes", "1", "--max-error", "1e-9"})), 1,
+                  {"the smallest takes at least"});
+    expectFailure(nacre(bake(scratch / "a.exr", {"--max-bytes", "9000", "--max-error", "1e-9"})), 1,
+                  {"nearest tried: ", "with error"});
+    expectFailure(nacre(bake(scratch / "a.exr", {"--max-fetches", "0"})), 2, {"--max-fetches", "1 to 64"});
     EXPECT_EQ(scratch.fileCount(), 0u);
 }
 
@@ -137,6 +170,36 @@ TEST(CommandFactorize, MissingAndBrokenSources) {
     std::ofstream(scratch / "cut.bsdf", std::ios::binary) << "tensor_file\0\1";
     expectFailure(nacre({"factorize", (scratch / "cut.bsdf").string(), "-o", out}), 1, {"cut.bsdf"});
     EXPECT_EQ(scratch.fileCount(), 2u);
+}
+
+/// A MERL table: 0.1 in red everywhere, less in the others, and `peak` times that in one cell.
+std::filesystem::path merlTable(const Scratch& scratch, double peak) {
+    constexpr std::size_t kCells = 90 * 90 * 180, kSpike = (30 * 90 + 20) * 180 + 50;
+    std::vector<double> cells(kCells, 150);
+    cells[kSpike] *= peak;
+    std::ofstream file(scratch / "spike.binary", std::ios::binary);
+    const std::int32_t sizes[3] = {90, 90, 180};
+    file.write(reinterpret_cast<const char*>(sizes), sizeof sizes);
+    for (int channel = 0; channel < 3; ++channel)
+        file.write(reinterpret_cast<const char*>(cells.data()), kCells * sizeof(double));
+    return scratch / "spike.binary";
+}
+
+TEST(CommandFactorize, SpikeThatNoMeasurementSeesIsSaid) {
+    const Scratch scratch;
+    const std::vector<std::string> words = {"factorize", merlTable(scratch, 1e5).string(),
+                                            "-o",        (scratch / "a.exr").string(),
+                                            "--method",  "fit",
+                                            "--size",    "16",
+                                            "--json"};
+    const Outcome spiked = nacre(words);
+    ASSERT_EQ(spiked.code, 0) << spiked.err;
+    EXPECT_THAT(spiked.err, AllOf(HasSubstr("% of the energy of"), HasSubstr("spike.binary")));
+    EXPECT_GT(std::abs(json::parse(spiked.out)["error"]["energy_seen"].get<double>() - 1), 0.2);
+    merlTable(scratch, 1);
+    const Outcome even = nacre(words);
+    EXPECT_THAT(even.err, Not(HasSubstr("energy")));
+    EXPECT_NEAR(json::parse(even.out)["error"]["energy_seen"].get<double>(), 1, 0.02);
 }
 
 TEST(CommandFullDisk, DevFullAsOutput) {
@@ -208,6 +271,40 @@ TEST(CommandInfo, ExrThatIsNoNacreAsset) {  // the same file with the attribute 
     bytes[at] = 'N';
     std::ofstream(scratch / "b.exr", std::ios::binary) << bytes;
     expectFailure(nacre({"info", (scratch / "b.exr").string()}), 1, {"b.exr", "an EXR that is no nacre asset"});
+}
+
+/// A baked asset whose metadata says something else, at the same length.
+std::filesystem::path relabelled(const Scratch& scratch, const std::string& from, const std::string& to) {
+    EXPECT_EQ(nacre(bake(scratch / "a.exr")).code, 0);
+    std::string bytes = contents(scratch / "a.exr");
+    const std::size_t at = bytes.find(from);
+    EXPECT_NE(at, std::string::npos) << from;
+    if (at != std::string::npos) bytes.replace(at, from.size(), to);
+    std::ofstream(scratch / "b.exr", std::ios::binary) << bytes;
+    return scratch / "b.exr";
+}
+
+TEST(CommandInfo, FormAndKindOfALaterVersion) {  // shown, but not as if they could be used
+    const Scratch scratch;
+    const std::string form = relabelled(scratch, "\"form\": \"single_lobe\"", "\"form\": \"neural_lobe\"").string();
+    for (const std::vector<std::string>& words : {std::vector<std::string>{"info", form}, {"info", form, "--json"}}) {
+        const Outcome outcome = nacre(words);
+        EXPECT_EQ(outcome.code, 0) << outcome.err;
+        EXPECT_THAT(outcome.out, HasSubstr("neural_lobe"));
+        EXPECT_THAT(outcome.err, AllOf(HasSubstr("unknown factored form 'neural_lobe'"), HasSubstr("can't use")));
+    }
+    expectFailure(nacre({"eval", form}), 1, {"b.exr", "unknown factored form 'neural_lobe'", "single_lobe"});
+    const std::string kind = relabelled(scratch, "\"kind\": \"brdf\"", "\"kind\": \"bump\"").string();
+    const Outcome outcome = nacre({"info", kind});
+    EXPECT_THAT(outcome.out, HasSubstr("bump"));
+    EXPECT_THAT(outcome.err, AllOf(HasSubstr("does not know the kind 'bump'"), HasSubstr("can't use")));
+    expectFailure(nacre({"eval", kind}), 1, {"expected an asset of kind brdf, found bump"});
+}
+
+TEST(CommandInfo, UsableAssetIsShownWithoutComplaint) {
+    const Scratch scratch;
+    ASSERT_EQ(nacre(bake(scratch / "a.exr")).code, 0);
+    EXPECT_THAT(nacre({"info", (scratch / "a.exr").string()}).err, IsEmpty());
 }
 
 TEST(CommandInfo, OversizedFiles) {  // sparse: they take no room on disk, and must take none in memory

@@ -123,7 +123,7 @@ TEST(Page, RejectsBrokenEntries) {
     broken([](Entry& e) { e.reference.png.clear(); });
     broken([](Entry& e) { e.shots[0].psnr = std::numeric_limits<double>::quiet_NaN(); });
     broken([](Entry& e) { e.shots[0].milliseconds = std::numeric_limits<double>::infinity(); });
-    broken([](Entry& e) { e.asset.maxRel = std::numeric_limits<double>::quiet_NaN(); });
+    broken([](Entry& e) { e.asset.error.maxRel = std::numeric_limits<double>::quiet_NaN(); });
 }
 
 TEST(Page, CostRatioLeavesTheGeometryOut) {

@@ -14,9 +14,8 @@ namespace nacre {
 namespace {
 
 constexpr EnvLayout kAll[] = {EnvLayout::LatLong, EnvLayout::Cube, EnvLayout::DualParaboloid, EnvLayout::Octahedral};
-constexpr double kEnergy = 2e-5;  // curved edges as short parabolas and chords
-constexpr double kBleeding =
-    4e3 * 1e-5;  // parallels are short arcs: slivers of a row get values, up to 4e3, of the next
+constexpr double kEnergy = 2e-5;   // curved edges as short parabolas and chords
+constexpr double kBleeding = 0.2;  // 5e-5 of values up to 4e3: short arcs stand for parallels, slivers cross a row
 
 template <typename F>
 EnvMap mapOf(EnvLayout layout, int size, F&& radiance) {
@@ -189,6 +188,13 @@ TEST(MirrorEnv, MovesTexelsToTheMirroredDirection) {
                 ASSERT_NEAR(y.image.data()[i], wantY.image.data()[i], 1e-6) << toString(layout) << size;
             }
         }
+}
+
+TEST(MatchingSize, KeepsTheTexelsWidth) {
+    EXPECT_EQ(matchingSize(EnvMap(EnvLayout::LatLong, 512), EnvLayout::Cube), 256);
+    EXPECT_EQ(matchingSize(EnvMap(EnvLayout::Cube, 256), EnvLayout::Octahedral), 512);
+    EXPECT_EQ(matchingSize(EnvMap(EnvLayout::LatLong, 1), EnvLayout::Cube), 1);
+    EXPECT_EQ(matchingSize(EnvMap(EnvLayout::DualParaboloid, 7), EnvLayout::DualParaboloid), 7);
 }
 
 TEST(EnvEnergy, OfConstantIsFourPi) {

@@ -64,7 +64,7 @@ INSTANTIATE_TEST_SUITE_P(
                     MethodCase{"ggx:alphax=0.2,alphay=0.5", "homomorphic", 48, 0.01},
                     MethodCase{"ward:alphax=0.2,alphay=0.4", "homomorphic", 48, 0.01},
                     MethodCase{"ashikhmin-shirley:nu=10,nv=50", "homomorphic", 48, 0.02},
-                    MethodCase{"torrance-sparrow:alpha=0.5", "svd", 24, 0.4},
+                    MethodCase{"torrance-sparrow:alpha=0.5", "svd", 24, 0.03},
                     MethodCase{"phong:n=50", "single-lobe", 128, 0.01},
                     MethodCase{"blinn-phong:n=100,ambient=0.1", "single-lobe", 128, 0.01},
                     MethodCase{"cosine-lobe", "single-lobe", 128, 0.01}, MethodCase{"banks", "tangent", 128, 0.02}));
@@ -163,6 +163,68 @@ TEST(FactorizeBudget, SaysHowNearItCame) {
     }
 }
 
+/// Counts what a search asks about: each question is a bake.
+TEST(FactorizeBudget, ImpossibleErrorCostsFewBakes) {
+    const Reflectance r = makeModel("torrance-sparrow:alpha=0.2");
+    for (const auto& [maxError, expected] : {std::pair(1e-9, 1), {1e-3, 2}}) {  // far off; smallest and largest miss
+        FactorizeOptions options = budget(r);
+        int bakes = 0;
+        options.measure = [&, inner = options.measure](const FactoredBrdf& b) { return ++bakes, inner(b); };
+        options.method = "fit";
+        options.terms = 1;  // the ladder of one layout: 16, 24, 32
+        options.maxError = maxError;
+        EXPECT_THROW(factorize(r, options), Error);
+        EXPECT_EQ(bakes, expected) << maxError;
+    }
+}
+
+TEST(FactorizeBudget, BoundsThatNothingMeetsFailBeforeAnyBake) {
+    Reflectance r = makeModel("torrance-sparrow:alpha=0.2");
+    r.f = [](const Vec3&, const Vec3&) -> Rgb { throw std::logic_error("something was baked"); };
+    for (const bool withError : {false, true}) {
+        FactorizeOptions bytes = budget(r), fetches = budget(r);
+        if (withError) bytes.maxError = fetches.maxError = 0.01;
+        bytes.maxBytes = 100;
+        fetches.maxFetches = 0;
+        for (const FactorizeOptions& options : {bytes, fetches}) try {
+                factorize(r, options);
+                FAIL() << "met an impossible budget";
+            } catch (const Error& error) {
+                EXPECT_THAT(error.what(), HasSubstr("the smallest takes at least 1024 bytes, and a lookup at least 1"));
+            }
+    }
+}
+
+TEST(FactorizeBudget, TermsHoldWithinABudget) {
+    const Reflectance r = makeModel("torrance-sparrow:alpha=0.4,kd=0.2");
+    FactorizeOptions options = budget(r);
+    options.method = "fit";
+    options.maxBytes = 10000;
+    for (const int terms : {1, 2}) {
+        options.terms = terms;
+        EXPECT_EQ(factorize(r, options).fetches, terms) << "Compact, then Grazing";
+    }
+}
+
+TEST(Factorize, OptionsThatTheMethodLacksAreRefused) {
+    const Reflectance r = makeModel("torrance-sparrow:alpha=0.4");
+    const auto complaint = [&](const FactorizeOptions& options) -> std::string {
+        try {
+            factorize(r, options);
+        } catch (const std::invalid_argument& error) {
+            return error.what();
+        }
+        return "none";
+    };
+    EXPECT_EQ(complaint({.method = "analytic", .terms = 2}), "terms: only fit and svd take it, found method analytic");
+    EXPECT_EQ(complaint({.method = "fit", .parametrization = "in_out"}),
+              "parametrization: only svd takes it, found method fit");
+    EXPECT_EQ(complaint({.parametrization = "in_out"}),
+              "parametrization: only svd takes it, found method auto, which chooses among analytic, fit here");
+    EXPECT_EQ(factorize(r, {.size = 16, .terms = 1}).method, "fit") << "auto turns to a method that has terms";
+    EXPECT_FALSE(unusedOption({.method = "svd", .terms = 1, .parametrization = "in_out"}));
+}
+
 TEST(Factorize, RejectsWhatDoesNotFit) {
     const Reflectance anisotropic = makeModel("ward:alphax=0.1,alphay=0.3");
     EXPECT_THROW(factorize(anisotropic, {.method = "fit"}), std::invalid_argument);
@@ -195,6 +257,17 @@ TEST(FactoredBrdf, RejectsAssetsThatLackParts) {
     EXPECT_THROW(factoredFromAsset(asset, "x.exr"), Error);
     asset.meta.erase("form");
     EXPECT_THROW(factoredFromAsset(asset, "x.exr"), Error);
+}
+
+TEST(FactoredBrdf, RejectsALayoutItDoesNotKnow) {
+    Asset asset = toAsset(bake("torrance-sparrow:alpha=0.5", "cosine", 16));
+    asset.meta["form"] = "half_diff";
+    for (const double layout : {4.0, -1.0, 0.5}) {
+        asset.meta["params"][0][1] = layout;
+        EXPECT_THROW(factoredFromAsset(asset, "x.exr"), Error) << layout;
+    }
+    asset.meta["params"][0][1] = 0.0;
+    EXPECT_NO_THROW(factoredFromAsset(asset, "x.exr"));
 }
 
 }  // namespace

@@ -70,6 +70,43 @@ TEST(LogTableFit, UnseenTexelsStayBoundedAndBlackStaysFinite) {
     for (float t : dark.tables[0].texels) EXPECT_TRUE(std::isfinite(t));
 }
 
+/// Lookups 0 and 1 over u and v multiply.
+LogTableModel twoFactors(bool exponential, float start) {
+    LogTableModel model;
+    for (int k = 0; k < 2; ++k) model.tables.emplace_back(5, 1, std::vector<glm::vec3>{glm::vec3(1)});
+    for (FitTable& table : model.tables) std::fill(table.texels.begin(), table.texels.end(), start);
+    model.lookupCount = 2;
+    model.products = true;
+    model.exponential = exponential;
+    model.lookups = [](const FitSample& s, std::span<FitLookup> out) {
+        out[0] = {0, glm::vec2(s.wi.x, 0), glm::vec4(1)};
+        out[1] = {1, glm::vec2(s.wi.y, 0), glm::vec4(1)};
+    };
+    return model;
+}
+
+TEST(LogTableFit, FindsAProduct) {  // of two linear functions, which the filter holds exactly
+    const auto product = [](double u, double v) { return (1 + u) * (2 - v); };
+    for (const bool exponential : {false, true}) {
+        const auto y = [&](double u, double v) {
+            return exponential ? product(u, v) : std::log(product(u, v));  // samplesOf takes the logarithm of f
+        };
+        LogTableModel model = twoFactors(exponential, 1);
+        const double loss = fitLogTables(model, samplesOf(y, 4000), {.newtonSteps = 30, .smoothness = 1e-7f});
+        EXPECT_LT(loss, 1e-8) << exponential;
+        const float scale = model.tables[0].texels[0];
+        for (int i = 0; i < 5; ++i) EXPECT_NEAR(model.tables[0].texels[i] / scale, 1 + i / 4.0, 2e-3) << exponential;
+    }
+}
+
+TEST(LogTableFit, ValuesBelowZeroComeBack) {  // where the logarithm ends, its tangent still pulls
+    LogTableModel model = oneTable(3);
+    model.exponential = false;
+    std::fill(model.tables[0].texels.begin(), model.tables[0].texels.end(), -0.01f);
+    fitLogTables(model, samplesOf([](double, double) { return -2.0; }, 500), {.newtonSteps = 30});
+    for (float t : model.tables[0].texels) EXPECT_NEAR(t, std::exp(-2.0), 2e-3);
+}
+
 TEST(LogTableFit, RejectsNoSamples) {
     LogTableModel model = oneTable(4);
     EXPECT_THROW(fitLogTables(model, {}, {}), std::invalid_argument);

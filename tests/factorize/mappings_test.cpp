@@ -89,6 +89,20 @@ TEST(Mappings, DifferenceVectorIsRusinkiewiczs) {
     }
 }
 
+TEST(Mappings, CarriedDifferenceIsARotationThatTakesHToTheNormal) {
+    for (double phi : {0.3, 2.0, 4.0}) {
+        const DirectionPair p = fromHalfDifference({0.6, 1.0, 0.5, phi});
+        const glm::vec3 h(halfVector(p.wi, p.wo));
+        const glm::vec3 i = carriedDifference(h, glm::vec3(p.wi)), o = carriedDifference(h, glm::vec3(p.wo));
+        const glm::vec3 turned = carriedDifference(h, h);
+        for (int c = 0; c < 3; ++c) EXPECT_NEAR(turned[c], c == 2, kSingle);
+        EXPECT_NEAR(glm::length(i), 1, kSingle);
+        EXPECT_NEAR(glm::dot(i, o), glm::dot(p.wi, p.wo), kSingle);  // angles are kept
+        const glm::vec3 pole = carriedDifference({0, 0, 1}, glm::vec3(p.wi));
+        for (int c = 0; c < 3; ++c) EXPECT_NEAR(pole[c], p.wi[c], kSingle);
+    }
+}
+
 TEST(Mappings, EndsFallOnTexelCentres) {
     EXPECT_FLOAT_EQ(toTexelCentres(0, 16), 0.5f / 16);
     EXPECT_FLOAT_EQ(toTexelCentres(1, 16), 15.5f / 16);

@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
 """Writes the corpus files that are made by formula: small measured files of every layout.
 Run from the repository root: python3 tests/fuzz/make_corpus.py
-(corpus/asset comes from the nacre command: factorize MODEL --size 4 in each storage format; corpus/exr from OpenEXR:
+(corpus/asset comes from the nacre command: factorize MODEL --size 4 in each storage format, and
+envmap of a 4 x 2 picture --convert; corpus/exr from OpenEXR:
 tests/core/exr_files.hpp, 9 × 9 texels or less in each compression.)"""
 import math
 import os
@@ -75,3 +76,5 @@ row = b"\x02\x02\x00\x0a" + b"\x8a\x80" + b"\x03\x01\x02\x03\x87\x04" + b"\x0a" 
 write("radiance/runs.hdr", head + b"-Y 2 +X 10\n" + row + row)
 write("radiance/cut.hdr", head + b"-Y 2 +X 10\n" + row)
 write("radiance/huge.hdr", head + b"-Y 16384 +X 16384\n" + row)
+write("env_queries/queries.csv", b"x,y,z,alpha\n0,1,0\n1e300,0,-3,0.5\n# end\n\n0,0,-1e-300,1e9\r\n")
+write("env_queries/broken.csv", b"0,0,0\nnan,1,1\n1,2\n1,2,3,4,5\n,,,\n")

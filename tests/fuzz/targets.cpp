@@ -9,10 +9,13 @@
 #include <string_view>
 
 #include "cli/direction_lines.hpp"
+#include "cli/eval_environment.hpp"
 #include "core/asset.hpp"
 #include "core/error.hpp"
 #include "core/file.hpp"
 #include "core/image_file.hpp"
+#include "envmaps/env_asset.hpp"
+#include "envmaps/source.hpp"
 #include "factorize/factored_brdf.hpp"
 #include "factorize/measured/merl.hpp"
 #include "factorize/measured/rgl.hpp"
@@ -28,7 +31,13 @@ static void requireDefined(const Rgb& value, const char* what) {
 }
 
 static void readAssetBytes(std::span<const std::uint8_t> bytes) {
-    const FactoredBrdf brdf = factoredFromAsset(parseAsset(bytes, "input"), "input");
+    const Asset asset = parseAsset(bytes, "input");
+    if (asset.kind == "environment") {
+        const EnvChain chain = envFromAsset(asset, "input");
+        requireDefined(sampleChain(chain, kOut, chain.mapping ? lodOf(*chain.mapping, 0.3) : 0), "environment");
+        return;
+    }
+    const FactoredBrdf brdf = factoredFromAsset(asset, "input");
     evaluate(brdf, kIn, kOut);
 }
 
@@ -51,25 +60,38 @@ static void readModelText(std::span<const std::uint8_t> bytes) {
     requireDefined(model.f(kIn, kOut), model.source.c_str());
 }
 
-static void readExrBytes(std::span<const std::uint8_t> bytes) { parseExrImage(bytes, "input"); }
-static void readRadianceBytes(std::span<const std::uint8_t> bytes) { parseRadianceImage(bytes, "input"); }
+/// As a surrounding when it has the proportions of one; what comes out of the reader's rules is finite.
+static void readAsMap(const ImageFile& file) {
+    const Environment environment = environmentFromImage(file, "input");
+    for (const float v : environment.map.image.data())
+        if (!std::isfinite(v) || v < 0) throw std::logic_error("a texel that is no radiance");
+}
+static void readExrBytes(std::span<const std::uint8_t> bytes) { readAsMap(parseExrImage(bytes, "input")); }
+static void readRadianceBytes(std::span<const std::uint8_t> bytes) { readAsMap(parseRadianceImage(bytes, "input")); }
 
-static void readDirections(std::span<const std::uint8_t> bytes) {
+/// Feeds a reader of lines.
+template <typename Reader, typename Item>
+static void readLines(std::span<const std::uint8_t> bytes) {
     std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
-    cli::DirectionReader reader;
-    std::vector<DirectionPair> pairs;
+    Reader reader;
+    std::vector<Item> items;
     while (!text.empty()) {
         const std::size_t end = std::min(text.find('\n'), text.size());
-        reader.take(text.substr(0, end), pairs);
+        reader.take(text.substr(0, end), items);
         text.remove_prefix(std::min(end + 1, text.size()));
     }
 }
 
 const std::vector<FuzzTarget>& fuzzTargets() {
-    static const std::vector<FuzzTarget> targets = {{"asset", readAssetBytes}, {"merl", readMerlBytes},
-                                                    {"rgl", readRglBytes},     {"samples", readSamplesText},
-                                                    {"model", readModelText},  {"directions", readDirections},
-                                                    {"exr", readExrBytes},     {"radiance", readRadianceBytes}};
+    static const std::vector<FuzzTarget> targets = {{"asset", readAssetBytes},
+                                                    {"merl", readMerlBytes},
+                                                    {"rgl", readRglBytes},
+                                                    {"samples", readSamplesText},
+                                                    {"model", readModelText},
+                                                    {"directions", readLines<cli::DirectionReader, DirectionPair>},
+                                                    {"exr", readExrBytes},
+                                                    {"radiance", readRadianceBytes},
+                                                    {"env_queries", readLines<cli::EnvQueryReader, cli::EnvQuery>}};
     return targets;
 }
 

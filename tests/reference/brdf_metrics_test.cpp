@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <limits>
+#include <nlohmann/json.hpp>
 
 #include "core/directions.hpp"
 
@@ -188,4 +189,27 @@ TEST(BrdfMetrics, SameBitsForAnyThreadCount) {
     EXPECT_EQ(one.spherePsnr, seven.spherePsnr);
     EXPECT_EQ(one.albedoMaxAbs, seven.albedoMaxAbs);
     EXPECT_EQ(one.samples, seven.samples);
+}
+
+TEST(BrdfMetrics, EnergySeenIsOneUnlessPeaksAreMissed) {
+    const double lambert = 3 * sqr(0.5) * sqr(kPi * sqr(std::sin(80 * kDegree)));  // ∫ f² dμ of f = 0.5
+    BrdfMetricOptions options{.truthEnergy = lambert};
+    EXPECT_NEAR(measureBrdf(constant(Rgb(0.5)), constant(Rgb(0.5)), options).energySeen, 1, kSampling);
+    options.truthEnergy = 4 * lambert;  // three quarters are somewhere that no pair sees
+    EXPECT_NEAR(measureBrdf(constant(Rgb(0.5)), constant(Rgb(0.5)), options).energySeen, 0.25, kSampling);
+    EXPECT_TRUE(std::isnan(measureBrdf(constant(Rgb(0.5)), constant(Rgb(0.5))).energySeen));
+}
+
+TEST(BrdfMetrics, JsonNamesEveryField) {
+    BrdfError error;
+    error.l2Rel = 0.25;
+    error.spherePsnr = -std::numeric_limits<double>::infinity();
+    error.negative = 7;
+    const nlohmann::json json = toJson(error);
+    for (const char* key : {"l2_rel", "log_rms", "max_rel", "grazing_l2_rel", "sphere_psnr", "albedo_max_abs",
+                            "energy_seen", "samples", "negative", "non_finite"})
+        EXPECT_TRUE(json.contains(key)) << key;
+    EXPECT_EQ(json["l2_rel"], 0.25);
+    EXPECT_EQ(json["negative"], 7);
+    EXPECT_TRUE(nlohmann::json::parse(json.dump())["sphere_psnr"].is_null());
 }

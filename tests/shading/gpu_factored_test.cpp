@@ -70,9 +70,10 @@ FactoredBrdf arbitraryHomomorphic(bool quadrant, bool directions, bool elevation
                       {0.1f, 0.2f, 0.3f, static_cast<float>(shadowing)}});
 }
 
-FactoredBrdf arbitrarySeparable(int terms, bool inOut, bool logarithms) {
-    return arbitrary(FactoredForm::Separable, 2 * terms,
-                     {{static_cast<float>(terms), inOut ? 1 : 0, logarithms ? 1 : 0, 0}, {1 / 0.2f, 1 / 0.3f, 0, 0}});
+FactoredBrdf arbitrarySeparable(int terms, SeparableArguments arguments, SeparableStorage storage, bool quadrant) {
+    return arbitrary(FactoredForm::Separable, terms * (arguments == SeparableArguments::Symmetric ? 1 : 2),
+                     {glm::vec4(terms, static_cast<int>(arguments), static_cast<int>(storage), quadrant),
+                      {1 / 0.2f, 1 / 0.3f, 0, 0}});
 }
 
 std::vector<glm::vec4> onGpu(const FactoredBrdf& brdf, const std::vector<DirectionPair>& pairs, Glsl dialect,
@@ -149,15 +150,24 @@ std::vector<FactoredCase> cases() {
     for (int i = 0; i < 8; ++i)
         out.push_back({"homomorphic_" + std::to_string(i),
                        [i] { return arbitraryHomomorphic((i & 1) != 0, (i & 2) != 0, (i & 4) != 0, i % 3); }});
-    for (int i = 0; i < 8; ++i)
-        out.push_back({"separable_" + std::to_string(i),
-                       [i] { return arbitrarySeparable(1 + (i & 1), (i & 2) != 0, (i & 4) != 0); }, (i & 2) == 0});
+    for (int arguments = 0; arguments < 4; ++arguments)
+        for (int storage = 0; storage < 3; ++storage) {
+            const auto a = static_cast<SeparableArguments>(arguments);
+            const auto s = static_cast<SeparableStorage>(storage);
+            if (a == SeparableArguments::Symmetric && s == SeparableStorage::Factors) continue;  // there is none
+            for (int terms = 1; terms <= 2; ++terms)
+                out.push_back(
+                    {"separable_" + std::to_string(arguments) + std::to_string(storage) + std::to_string(terms),
+                     [=] { return arbitrarySeparable(terms, a, s, terms == 2); },
+                     a == SeparableArguments::HalfDifference});
+        }
     const auto baked = [&out](const std::string& name, const std::string& model, const std::string& method) {
         out.push_back({name, [=] { return bake(model, method); }});
     };
     baked("analytic", "torrance-sparrow:alpha=0.3", "analytic");
     baked("cosine", "torrance-sparrow:alpha=0.3,f=conductor,eta=0.2/0.9/1.1,k=3.9/2.4/2.2,kd=0.3", "cosine");
     baked("svd", "torrance-sparrow:alpha=0.3", "svd");
+    baked("svd_anisotropic", "ggx:alphax=0.2,alphay=0.5", "svd");
     baked("phong", "phong:n=40,kd=0.2/0.3/0.4", "single-lobe");
     baked("blinn_phong", "blinn-phong:n=1000,ks=0.5/0.6/0.7,ambient=0.1", "single-lobe");
     baked("cosine_lobe", "cosine-lobe:cx=-0.9,cy=-0.7,cz=0.8,n=20", "single-lobe");

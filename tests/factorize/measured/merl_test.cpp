@@ -160,6 +160,25 @@ TEST(Merl, ResidualOfAKnownAsymmetry) {  // 3 and 1 in the halves of φd: √(2�
     EXPECT_NEAR(evaluate(table, {0.6, 0, 0.8}, {0, 0.6, 0.8}).r, 2 * kScale[0], 1e-6);
 }
 
+TEST(Merl, EnergyOfConstantAndOfSpike) {
+    const double stored = 0.5 / kScale[0];  // grey: 0.5 in every channel
+    const MerlTable constant = parseMerl(
+        merlBytes([&](std::size_t) { return stored * Rgb(1, kScale[0] / kScale[1], kScale[0] / kScale[2]); }), "grey");
+    const double exact = 3 * 0.25 * sqr(kPi * sqr(std::sin(80 * kPi / 180)));  // ∫ dμ to 80° is (π sin²80°)²
+    constexpr double kBlocks = 0.01;  // blocks of 1° and 2° at the 80° limit are in or out
+    EXPECT_NEAR(constant.energy / exact, 1, kBlocks);
+
+    const std::size_t spike = (20 * 90 + 30) * 180 + 60;
+    const MerlTable spiked =
+        parseMerl(merlBytes([&](std::size_t cell) { return Rgb(cell == spike ? 1.5e6 : 0); }), "spike");
+    const double u = 20.5 / 90, h = kPi / 2 * u * u, d = kPi / 2 * 30.5 / 90, cosP = std::cos(kPi * 60.5 / 180);
+    const double cosines = sqr(std::cos(h) * std::cos(d)) - sqr(std::sin(h) * std::sin(d) * cosP);
+    const double cell = cosines * 4 * std::cos(d) * std::sin(h) * std::sin(d) * 2 * kPi * (kPi * u / 90) *
+                        (kPi / 2 / 90) * (kPi / 180) * 2;          // both halves of φd
+    const double square = sqr(500) * (1 + sqr(1.15) + sqr(1.66));  // halved with its mirror image, which has as much
+    EXPECT_NEAR(spiked.energy / (2 * cell * square * 8 / 27), 1, 0.01);  // a hat's square is 2/3 of its cell, thrice
+}
+
 TEST(Merl, BadFilesAreNamedWithExpectedAndFound) {
     const auto message = [](const std::vector<std::uint8_t>& bytes) {
         const std::string text = messageOf<Error>([&] { parseMerl(bytes, "x.binary"); });

@@ -1,12 +1,9 @@
-// The truth that a bake is measured against.
+// What is said of a source's data before anything is made of it.
 #pragma once
 
 #include "factorize/reflectance.hpp"
 
 namespace nacre::cli {
-
-/// For analytic models the independent implementation of reference/, where there is one; else the reflectance itself.
-BrdfFunction truthOf(const Reflectance& reflectance);
 
 /// One line on standard error when entries of measured data had to be handled by a rule.
 void tellDataReport(const Reflectance& reflectance);

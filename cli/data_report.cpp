@@ -1,21 +1,10 @@
-#include "cli/truth.hpp"
+#include "cli/data_report.hpp"
 
 #include <fmt/format.h>
 
 #include "cli/terminal.hpp"
-#if __has_include("reference/analytic_brdf.hpp")
-#include "reference/analytic_brdf.hpp"
-#endif
 
 namespace nacre::cli {
-
-BrdfFunction truthOf(const Reflectance& reflectance) {
-#if __has_include("reference/analytic_brdf.hpp")
-    if (reflectance.kind == "analytic")
-        if (std::optional<BrdfFunction> independent = referenceBrdf(reflectance.source)) return *independent;
-#endif
-    return reflectance.f;
-}
 
 void tellDataReport(const Reflectance& reflectance) {
     const DataReport& d = reflectance.data;
