@@ -1,34 +1,67 @@
 #!/bin/sh
-# Fetches the gallery's meshes from a Debian package without installing it: demos/fetch.sh [DIR], default build/data.
-# Keeps what is there; exit 1 with one line when the package can't be had (the gallery then uses its built-in meshes).
+# Fetches the gallery's meshes and surroundings from Debian packages without installing them:
+# demos/fetch.sh [DIR], default build/data. Keeps what is there; exit 1 with one line for each package that can't be had
+# (the gallery then uses its built-in meshes and a made-up sky).
 set -eu
 root=$(cd "$(dirname "$0")/.." && pwd)
 data=${1:-$root/build/data}
-package=libcgal-demo
-archive=usr/share/doc/libcgal-dev/data.tar.gz
-meshes='armadillo bunny00 ChineseDragon-10kv lion-head refined_elephant camel'
+failed=0
 
-missing=
-for mesh in $meshes; do
-  [ -s "$data/meshes/$mesh.off" ] || missing="$missing $mesh"
-done
-[ -n "$missing" ] || exit 0
-
-fail() {
-  echo "demos/fetch.sh: $1; the gallery will use its built-in meshes instead of:$missing" >&2
-  exit 1
+# missing FOLDER ENDING NAME...: the names without a file
+missing() {
+  folder=$1
+  ending=$2
+  shift 2
+  for name in "$@"; do
+    [ -s "$data/$folder/$name$ending" ] || printf ' %s' "$name"
+  done
 }
-command -v apt-get >/dev/null && command -v dpkg-deb >/dev/null || fail "no apt-get and dpkg-deb here"
-mkdir -p "$data/meshes"
+
+# download PACKAGE SIZE WHAT: into $work; false, with one line, when it can't be had
+download() {
+  command -v apt-get >/dev/null && command -v dpkg-deb >/dev/null || { complain "no apt-get and dpkg-deb here"; return 1; }
+  echo "demos/fetch.sh: fetching $1 ($2) for its $3" >&2
+  (cd "$work" && apt-get download "$1" >log 2>&1) || {
+    complain "'apt-get download $1' failed ($(tail -n 1 "$work/log" 2>/dev/null); try 'apt-get update' first)"
+    return 1
+  }
+}
+
+complain() {
+  echo "demos/fetch.sh: $1; the gallery will use what is built in instead of:$wanted" >&2
+  failed=1
+}
+
+mkdir -p "$data/meshes" "$data/world"
 work=$(mktemp -d "$data/fetch.XXXXXX")
 trap 'rm -rf "$work"' EXIT
 chmod 755 "$work" # apt's own user writes here when root downloads
-echo "demos/fetch.sh: fetching $package (24 MB) for its meshes" >&2
-(cd "$work" && apt-get download "$package" >log 2>&1) ||
-  fail "'apt-get download $package' failed ($(tail -n 1 "$work/log" 2>/dev/null); try 'apt-get update' first)"
-dpkg-deb --fsys-tarfile "$work"/"$package"_*.deb | tar -x -C "$work" -f - "./$archive" ||
-  fail "$package holds no $archive"
-for mesh in $missing; do
-  tar -x -z -C "$work" -f "$work/$archive" "data/meshes/$mesh.off" || fail "$archive holds no data/meshes/$mesh.off"
-  mv "$work/data/meshes/$mesh.off" "$data/meshes/$mesh.off"
-done
+
+wanted=$(missing meshes .off armadillo bunny00 ChineseDragon-10kv lion-head refined_elephant camel)
+if [ -n "$wanted" ] && download libcgal-demo '24 MB' meshes; then
+  archive=usr/share/doc/libcgal-dev/data.tar.gz
+  if dpkg-deb --fsys-tarfile "$work"/libcgal-demo_*.deb | tar -x -C "$work" -f - "./$archive"; then
+    for mesh in $wanted; do
+      if tar -x -z -C "$work" -f "$work/$archive" "data/meshes/$mesh.off"; then
+        mv "$work/data/meshes/$mesh.off" "$data/meshes/$mesh.off"
+      else
+        complain "$archive holds no data/meshes/$mesh.off"
+      fi
+    done
+  else
+    complain "libcgal-demo holds no $archive"
+  fi
+fi
+
+wanted=$(missing world .exr city interior studio)
+if [ -n "$wanted" ] && download blender-data '31 MB' surroundings; then
+  folder=usr/share/blender/datafiles/studiolights/world
+  for world in $wanted; do
+    if dpkg-deb --fsys-tarfile "$work"/blender-data_*.deb | tar -x -C "$work" -f - "./$folder/$world.exr"; then
+      mv "$work/$folder/$world.exr" "$data/world/$world.exr"
+    else
+      complain "blender-data holds no $folder/$world.exr"
+    fi
+  done
+fi
+exit $failed

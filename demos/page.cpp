@@ -6,6 +6,7 @@
 #include <set>
 
 #include "core/error.hpp"
+#include "demos/page_parts.hpp"
 #include "demos/page_style.hpp"
 #include "reference/image_compare.hpp"
 #include "reference/tone.hpp"
@@ -25,66 +26,51 @@ std::string differenceGradient() {
     return css + ")";
 }
 
-std::string dataUri(const Picture& picture) { return "data:image/png;base64," + base64(picture.png); }
-
-std::string figure(const Picture& picture, const std::string& alt, const std::string& caption,
-                   const std::string& below = {}) {
-    return fmt::format("<figure><img alt=\"{}\" src=\"{}\">{}<figcaption>{}</figcaption></figure>\n", escapeHtml(alt),
-                       dataUri(picture), below, caption);
-}
-
-std::string scaleBar(double scale) {
-    std::string ticks;
-    for (const double share : {0.0, 0.25, 0.5, 0.75, 1.0})
-        ticks += fmt::format("<span>{}</span>", formatNumber(share * scale, 2));
-    return "<div class=\"scale\"></div><div class=\"ticks\">" + ticks + "</div>";
-}
-
 std::string ratio(const Entry& e, const Shot& shot) {
     return e.directMilliseconds ? costRatio(shot.milliseconds, *e.directMilliseconds, e.geometryMilliseconds) : "–";
 }
 
-std::string psnrText(double psnr) { return psnr < 200 ? fmt::format("{:.1f} dB", psnr) : "identical"; }
-
-std::string percent(double share) { return formatNumber(100 * share, 3) + " %"; }
-
-/// A cell that shows its column's name where the table becomes a list, on narrow screens.
-std::string cell(const std::string& name, const std::string& value) {
-    return fmt::format("<td data-name=\"{}\"><span>{}</span></td>", name, value);
-}
-
-std::string headRow(const std::vector<std::string>& names) {
-    std::string row = "<thead><tr>";
-    for (const std::string& name : names) row += "<th scope=\"col\">" + name + "</th>";
-    return row + "</tr></thead>\n";
-}
-
 std::string summaryTable(const Gallery& gallery) {
     std::string html = "<table class=\"cards\">" +
-                       headRow({"entry", "E<sub>L2</sub>", "picture", "bytes", "fetches", "frame", "cost ratio"}) +
+                       headRowHtml({"entry", "E<sub>L2</sub>", "picture", "bytes", "fetches", "frame", "cost ratio"}) +
                        "<tbody>\n";
     for (const Entry& e : gallery.entries) {
         const Shot& shot = e.shots.front();
         html += fmt::format("<tr><td><a href=\"#{}\">{}</a></td>", e.id, escapeHtml(e.title)) +
-                cell("E_L2", percent(e.asset.error.l2Rel)) + cell("picture", psnrText(shot.psnr)) +
-                cell("bytes", formatBytes(e.asset.bytes)) + cell("fetches", std::to_string(e.asset.fetches)) +
-                cell("frame", formatNumber(shot.milliseconds) + " ms") + cell("cost ratio", ratio(e, shot)) + "</tr>\n";
+                cellHtml("E_L2", percentText(e.asset.error.l2Rel)) + cellHtml("picture", psnrText(shot.psnr)) +
+                cellHtml("bytes", formatBytes(e.asset.bytes)) + cellHtml("fetches", std::to_string(e.asset.fetches)) +
+                cellHtml("frame", formatNumber(shot.milliseconds) + " ms") + cellHtml("cost ratio", ratio(e, shot)) +
+                "</tr>\n";
+    }
+    return html + "</tbody></table>\n";
+}
+
+std::string exhibitTable(const Gallery& gallery) {
+    if (gallery.exhibits.empty()) return {};
+    std::string html =
+        "<table class=\"cards\">" + headRowHtml({"environment maps", "lowest PSNR", "longest frame"}) + "<tbody>\n";
+    for (const Exhibit& e : gallery.exhibits) {
+        const std::optional<double> psnr = lowestPsnr(e), frame = longestFrame(e);
+        html += fmt::format("<tr><td><a href=\"#{}\">{}</a></td>", e.id, escapeHtml(e.title)) +
+                cellHtml("lowest PSNR", psnr ? psnrText(*psnr) : "–") +
+                cellHtml("longest frame", frame ? formatNumber(*frame) + " ms" : "–") + "</tr>\n";
     }
     return html + "</tbody></table>\n";
 }
 
 std::string timeRow(const std::string& name, double milliseconds) {
-    return fmt::format("<tr><td>{}</td>", escapeHtml(name)) + cell("PSNR", "–") + cell("rel. error", "–") +
-           cell("frame", formatNumber(milliseconds) + " ms") + cell("cost ratio", "–") + "</tr>\n";
+    return fmt::format("<tr><td>{}</td>", escapeHtml(name)) + cellHtml("PSNR", "–") + cellHtml("rel. error", "–") +
+           cellHtml("frame", formatNumber(milliseconds) + " ms") + cellHtml("cost ratio", "–") + "</tr>\n";
 }
 
 std::string shotTable(const Entry& e) {
-    std::string html =
-        "<table class=\"cards\">" + headRow({"drawn", "PSNR", "relative error", "frame", "cost ratio"}) + "<tbody>\n";
+    std::string html = "<table class=\"cards\">" +
+                       headRowHtml({"drawn", "PSNR", "relative error", "frame", "cost ratio"}) + "<tbody>\n";
     for (const Shot& shot : e.shots)
-        html += fmt::format("<tr><td>{}</td>", escapeHtml(shot.label)) + cell("PSNR", psnrText(shot.psnr)) +
-                cell("rel. error", percent(shot.relativeError)) +
-                cell("frame", formatNumber(shot.milliseconds) + " ms") + cell("cost ratio", ratio(e, shot)) + "</tr>\n";
+        html += fmt::format("<tr><td>{}</td>", escapeHtml(shot.label)) + cellHtml("PSNR", psnrText(shot.psnr)) +
+                cellHtml("rel. error", percentText(shot.relativeError)) +
+                cellHtml("frame", formatNumber(shot.milliseconds) + " ms") + cellHtml("cost ratio", ratio(e, shot)) +
+                "</tr>\n";
     if (e.directMilliseconds) html += timeRow("evaluated directly: " + e.directLabel, *e.directMilliseconds);
     html += timeRow("the mesh without light", e.geometryMilliseconds);
     return html + "</tbody></table>\n";
@@ -97,32 +83,32 @@ std::string fact(const std::string& name, const std::string& value) {
 std::string assetFacts(const AssetFacts& a) {
     return "<dl>" + fact("method, form", escapeHtml(a.method + ", " + a.form)) +
            fact("textures", escapeHtml(a.textures)) + fact("bytes", formatBytes(a.bytes)) +
-           fact("fetches", std::to_string(a.fetches)) + fact("E<sub>L2</sub> to 80°", percent(a.error.l2Rel)) +
-           fact("E<sub>L2</sub> 80–89°", percent(a.error.grazingL2Rel)) +
-           fact("E<sub>log</sub>", formatNumber(a.error.logRms)) + fact("largest relative", percent(a.error.maxRel)) +
-           fact("lit sphere", psnrText(a.error.spherePsnr)) + fact("baked in", formatNumber(a.bakeSeconds) + " s") +
-           "</dl>\n";
+           fact("fetches", std::to_string(a.fetches)) + fact("E<sub>L2</sub> to 80°", percentText(a.error.l2Rel)) +
+           fact("E<sub>L2</sub> 80–89°", percentText(a.error.grazingL2Rel)) +
+           fact("E<sub>log</sub>", formatNumber(a.error.logRms)) +
+           fact("largest relative", percentText(a.error.maxRel)) + fact("lit sphere", psnrText(a.error.spherePsnr)) +
+           fact("baked in", formatNumber(a.bakeSeconds) + " s") + "</dl>\n";
 }
 
 std::string referenceFigure(const Entry& e) {
-    return figure(e.reference, e.title + ": reference", "reference: ray traced, unfactored");
+    return figureHtml(e.reference, e.title + ": reference", "reference: ray traced, unfactored");
 }
 
 std::string differenceFigure(const Entry& e, const Shot& shot) {
-    return figure(shot.difference, e.title + ", " + shot.label + ": difference",
-                  fmt::format("difference; {}, {}", psnrText(shot.psnr), percent(shot.relativeError)),
-                  scaleBar(e.differenceScale));
+    return figureHtml(shot.difference, e.title + ", " + shot.label + ": difference",
+                      fmt::format("difference; {}, {}", psnrText(shot.psnr), percentText(shot.relativeError)),
+                      scaleBarHtml(e.differenceScale));
 }
 
 std::string triple(const Entry& e, const Shot& shot) {
-    return figure(shot.picture, e.title, escapeHtml(shot.label)) + referenceFigure(e) + differenceFigure(e, shot);
+    return figureHtml(shot.picture, e.title, escapeHtml(shot.label)) + referenceFigure(e) + differenceFigure(e, shot);
 }
 
 /// Several shots of one reference: each picture stands above its difference.
 std::string pairs(const Entry& e) {
     std::string html = referenceFigure(e);
     for (const Shot& shot : e.shots)
-        html += "<div class=\"pair\">" + figure(shot.picture, e.title + ", " + shot.label, escapeHtml(shot.label)) +
+        html += "<div class=\"pair\">" + figureHtml(shot.picture, e.title + ", " + shot.label, escapeHtml(shot.label)) +
                 differenceFigure(e, shot) + "</div>\n";
     return html;
 }
@@ -153,6 +139,11 @@ std::string introduction(const Gallery& gallery) {
         "directions up to 80°, read back "
         "from the file through the stored format and the texture filter. <code>reference/brdf_metrics.hpp</code> and "
         "<code>reference/image_compare.hpp</code> define these numbers.</p>\n";
+    if (!gallery.exhibits.empty())
+        html +=
+            "<p>Under the environment maps the light is a whole surrounding, filtered beforehand by the surface's lobe "
+            "and looked up once a pixel. There the reference sums the lobe over every texel of the surrounding for "
+            "each pixel, with exact Fresnel factors.</p>\n";
     html += fmt::format("<p class=\"soft\">nacre {}; {}; {}; made in {} s{}</p>\n", escapeHtml(gallery.version),
                         escapeHtml(gallery.renderer), escapeHtml(gallery.machine), formatNumber(gallery.seconds),
                         gallery.quick ? "; <strong>quick run: small pictures, few samples</strong>" : "");
@@ -169,12 +160,18 @@ std::string galleryPage(const Gallery& gallery) {
         "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n<title>nacre: gallery</title>\n"
         "<link rel=\"icon\" href=\"data:,\">\n<style>";
     html += std::string(kPageStyle) + ".scale { background: " + differenceGradient() + "; }\n</style>\n</head>\n";
-    html += "<body>\n<main>\n" + introduction(gallery) + "<h2>Summary</h2>\n" + summaryTable(gallery);
+    html += "<body>\n<main>\n" + introduction(gallery) + "<h2>Summary</h2>\n" + summaryTable(gallery) +
+            exhibitTable(gallery);
     std::string section;
     for (const Entry& entry : gallery.entries) {
         if (entry.section != section) html += "<h2>" + escapeHtml(entry.section) + "</h2>\n";
         section = entry.section;
         html += article(entry);
+    }
+    for (const Exhibit& exhibit : gallery.exhibits) {
+        if (exhibit.section != section) html += "<h2>" + escapeHtml(exhibit.section) + "</h2>\n";
+        section = exhibit.section;
+        html += exhibitHtml(exhibit);
     }
     return html + "</main>\n</body>\n</html>\n";
 }

@@ -7,15 +7,10 @@
 #include <string>
 #include <vector>
 
+#include "demos/exhibit.hpp"
 #include "reference/brdf_metrics.hpp"
 
 namespace nacre {
-
-/// A PNG file's bytes and the name it has beside the page.
-struct Picture {
-    std::string file;
-    std::vector<std::uint8_t> png;
-};
 
 /// One way of drawing an entry, against the entry's reference.
 struct Shot {
@@ -57,6 +52,7 @@ struct Gallery {
     std::vector<std::string> notes;          ///< inputs that were missing and what stands in for them
     double seconds = 0;                      ///< the whole run took
     std::vector<Entry> entries;
+    std::vector<Exhibit> exhibits;  ///< after the entries
 };
 
 /// A complete HTML document, UTF-8: pictures as data URIs, no script, nothing fetched. One column on narrow screens,

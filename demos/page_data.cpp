@@ -5,41 +5,27 @@
 #include <set>
 
 #include "core/error.hpp"
-#include "demos/page.hpp"
+#include "demos/page_parts.hpp"
 
 namespace nacre {
 namespace {
 
-bool isId(const std::string& id) {
-    return !id.empty() && id.find_first_not_of("abcdefghijklmnopqrstuvwxyz0123456789-") == std::string::npos;
-}
-
-/// \throws std::invalid_argument naming entry and field
-double finite(const Entry& entry, const char* field, double value) {
-    require(std::isfinite(value), fmt::format("gallery entry {}: {} is {}", entry.id, field, value));
-    return value;
-}
-
-void checkPicture(const Entry& entry, const Picture& picture) {
-    require(!picture.png.empty() && !picture.file.empty(),
-            "gallery entry " + entry.id + ": a picture has no bytes or no file name");
-}
-
 nlohmann::json shotJson(const Entry& e, const Shot& shot) {
-    checkPicture(e, shot.picture);
-    checkPicture(e, shot.difference);
+    checkPicture(e.id, shot.picture);
+    checkPicture(e.id, shot.difference);
     return {{"label", shot.label},
             {"picture", shot.picture.file},
             {"difference", shot.difference.file},
-            {"psnr_db", finite(e, "psnr", shot.psnr)},
-            {"relative_error", finite(e, "relativeError", shot.relativeError)},
-            {"milliseconds", finite(e, "milliseconds", shot.milliseconds)}};
+            {"psnr_db", checkedFinite(e.id, "psnr", shot.psnr)},
+            {"relative_error", checkedFinite(e.id, "relativeError", shot.relativeError)},
+            {"milliseconds", checkedFinite(e.id, "milliseconds", shot.milliseconds)}};
 }
 
 nlohmann::json errorJson(const Entry& e) {
     const nlohmann::json error = toJson(e.asset.error);
     for (const auto& [key, value] : error.items())
-        if (key != "energy_seen") finite(e, key.c_str(), value.get<double>());  // that one has no value for formulas
+        if (key != "energy_seen")
+            checkedFinite(e.id, key.c_str(), value.get<double>());  // that one has no value for formulas
     return error;
 }
 
@@ -51,14 +37,14 @@ nlohmann::json assetJson(const Entry& e) {
             {"textures", a.textures},
             {"bytes", a.bytes},
             {"fetches", a.fetches},
-            {"bake_seconds", finite(e, "bakeSeconds", a.bakeSeconds)},
+            {"bake_seconds", checkedFinite(e.id, "bakeSeconds", a.bakeSeconds)},
             {"error", errorJson(e)}};
 }
 
 nlohmann::json entryJson(const Entry& e) {
-    require(isId(e.id), "gallery entry '" + e.id + "': an id is made of a-z, 0-9 and dashes");
+    checkId(e.id);
     require(!e.shots.empty(), "gallery entry " + e.id + " has no shot");
-    checkPicture(e, e.reference);
+    checkPicture(e.id, e.reference);
     nlohmann::json shots = nlohmann::json::array();
     for (const Shot& shot : e.shots) shots.push_back(shotJson(e, shot));
     return {{"id", e.id},
@@ -68,11 +54,11 @@ nlohmann::json entryJson(const Entry& e) {
             {"scene", e.scene},
             {"reference", e.reference.file},
             {"shots", shots},
-            {"difference_scale", finite(e, "differenceScale", e.differenceScale)},
-            {"geometry_milliseconds", finite(e, "geometryMilliseconds", e.geometryMilliseconds)},
-            {"direct_milliseconds", e.directMilliseconds
-                                        ? nlohmann::json(finite(e, "directMilliseconds", *e.directMilliseconds))
-                                        : nlohmann::json()},
+            {"difference_scale", checkedFinite(e.id, "differenceScale", e.differenceScale)},
+            {"geometry_milliseconds", checkedFinite(e.id, "geometryMilliseconds", e.geometryMilliseconds)},
+            {"direct_milliseconds",
+             e.directMilliseconds ? nlohmann::json(checkedFinite(e.id, "directMilliseconds", *e.directMilliseconds))
+                                  : nlohmann::json()},
             {"direct", e.directLabel},
             {"asset", assetJson(e)},
             {"command", e.command}};
@@ -87,9 +73,14 @@ nlohmann::json galleryJson(const Gallery& gallery) {
         entries.push_back(entryJson(entry));
         require(ids.insert(entry.id).second, "gallery entry " + entry.id + " appears twice");
     }
+    nlohmann::json exhibits = nlohmann::json::array();
+    for (const Exhibit& exhibit : gallery.exhibits) {
+        exhibits.push_back(exhibitJson(exhibit));
+        require(ids.insert(exhibit.id).second, "gallery entry " + exhibit.id + " appears twice");
+    }
     return {{"version", gallery.version}, {"renderer", gallery.renderer}, {"machine", gallery.machine},
             {"quick", gallery.quick},     {"notes", gallery.notes},       {"seconds", gallery.seconds},
-            {"entries", entries}};
+            {"entries", entries},         {"exhibits", exhibits}};
 }
 
 std::string base64(const std::vector<std::uint8_t>& bytes) {  // RFC 4648, section 4

@@ -17,6 +17,7 @@ main { max-width: 74rem; margin: 0 auto; padding: 1.2rem 1rem 4rem; }
 h1 { font-size: 1.9rem; line-height: 1.15; margin: .4rem 0 .6rem; }
 h2 { font-size: 1.35rem; line-height: 1.25; margin: 2.6rem 0 .6rem; border-bottom: 1px solid var(--line);
   padding-bottom: .3rem; }
+h4 { font-size: .95rem; margin: 1rem 0 0; }
 h3 { font-size: 1.1rem; line-height: 1.3; margin: 0 0 .4rem; }
 p { margin: .4rem 0 .8rem; max-width: 46rem; }
 a { color: var(--link); }

@@ -61,6 +61,13 @@ struct RayCamera {
     }
 };
 
+/// Ray k of pixel (x, y).
+Ray sampleRay(const RayCamera& rays, const RaytraceOptions& options, int x, int y, int k) {
+    const int n = options.supersample;
+    const Vec2 centre(x + (k % n + 0.5) / n, y + (k / n + 0.5) / n);
+    return rays.at({2 * centre.x / options.width - 1, 1 - 2 * centre.y / options.height});
+}
+
 class Renderer {
 public:
     Renderer(const Mesh& mesh, const Camera& camera, const std::vector<Light>& lights, const BrdfFunction& brdf,
@@ -77,8 +84,7 @@ public:
         Rgb sum(0);
         int hits = 0;
         for (int i = 0; i < n * n; ++i) {
-            const Vec2 centre(x + (i % n + 0.5) / n, y + (i / n + 0.5) / n);
-            const Ray ray = rays_.at({2 * centre.x / options_.width - 1, 1 - 2 * centre.y / options_.height});
+            const Ray ray = sampleRay(rays_, options_, x, y, i);
             const RayHit hit = scene_.firstHit(ray);
             hits += hit.found;
             sum += hit.found ? radiance(surfaceAt(mesh_, hit), -glm::normalize(ray.direction)) : options_.background;
@@ -137,6 +143,50 @@ RaytracedPicture raytrace(const Mesh& mesh, const Camera& camera, const std::vec
     parallelFor(static_cast<std::size_t>(options.height), options.threads, [&](std::size_t y) {
         for (int x = 0; x < options.width; ++x) renderer.pixel(x, static_cast<int>(y), out);
     });
+    return out;
+}
+
+TracedSurface traceSurface(const Mesh& mesh, const Camera& camera, const RaytraceOptions& options) {
+    require(options.width >= 1 && options.height >= 1 && options.supersample >= 1, "traceSurface: a size is below 1");
+    checkMesh(mesh);
+    const EmbreeScene scene(mesh);
+    const RayCamera rays(camera, static_cast<double>(options.width) / options.height);
+    const int samples = options.supersample * options.supersample;
+    TracedSurface out{options.width, options.height, options.supersample, {}, {}};
+    out.points.resize(static_cast<std::size_t>(options.width) * options.height * samples, SurfacePoint{});
+    out.directions.resize(out.points.size());
+    parallelFor(static_cast<std::size_t>(options.height), options.threads, [&](std::size_t y) {
+        std::size_t at = y * options.width * samples;
+        for (int x = 0; x < options.width; ++x)
+            for (int k = 0; k < samples; ++k, ++at) {
+                const Ray ray = sampleRay(rays, options, x, static_cast<int>(y), k);
+                out.directions[at] = glm::normalize(ray.direction);
+                const RayHit hit = scene.firstHit(ray);
+                if (!hit.found) continue;
+                const Surface s = surfaceAt(mesh, hit);
+                out.points[at] = {s.position, s.normal, s.tangent, s.bitangent, -out.directions[at]};
+            }
+    });
+    return out;
+}
+
+RaytracedPicture assemblePicture(const TracedSurface& surface, const std::vector<Rgb>& radiance) {
+    require(radiance.size() == surface.points.size(),
+            fmt::format("assemblePicture: {} samples, but {} radiances", surface.points.size(), radiance.size()));
+    const int samples = surface.supersample * surface.supersample;
+    RaytracedPicture out{Image(surface.width, surface.height, 3), Image(surface.width, surface.height, 1)};
+    std::size_t at = 0;
+    for (int y = 0; y < surface.height; ++y)
+        for (int x = 0; x < surface.width; ++x) {
+            Rgb sum(0);
+            int hits = 0;
+            for (int k = 0; k < samples; ++k, ++at) {
+                sum += radiance[at];
+                hits += TracedSurface::hit(surface.points[at]);
+            }
+            out.radiance.setRgb(x, y, sum / static_cast<double>(samples));
+            out.coverage.at(x, y, 0) = static_cast<float>(hits) / static_cast<float>(samples);
+        }
     return out;
 }
 

@@ -17,6 +17,21 @@ struct RaytraceOptions {
     unsigned threads = 0;           ///< 0 = all cores, same bits for any
 };
 
+/// A point that a ray hit; all unit and as `raytrace` has them.
+struct SurfacePoint {
+    Vec3 position, normal, tangent, bitangent;
+    Vec3 toEye;
+};
+
+/// The rays of a picture: sample k of pixel (x, y) is element (y · width + x) · n² + k, row by row within the pixel.
+struct TracedSurface {
+    int width = 0, height = 0, supersample = 1;
+    std::vector<SurfacePoint> points;  ///< normal (0, 0, 0) where no triangle was hit
+    std::vector<Vec3> directions;      ///< unit, where the ray goes
+
+    static bool hit(const SurfacePoint& p) { return p.normal != Vec3(0); }
+};
+
 struct RaytracedPicture {
     Image radiance;  ///< linear RGB, row 0 on top
     Image coverage;  ///< one channel: share of the pixel's rays that hit the mesh
@@ -30,5 +45,12 @@ struct RaytracedPicture {
 ///         non-finite positions
 RaytracedPicture raytrace(const Mesh& mesh, const Camera& camera, const std::vector<Light>& lights,
                           const BrdfFunction& brdf, const RaytraceOptions& options = {});
+
+/// Where the rays of raytrace hit, for shading by another formula. Takes sizes and threads of the options.
+TracedSurface traceSurface(const Mesh& mesh, const Camera& camera, const RaytraceOptions& options = {});
+
+/// The picture of one radiance a sample, as raytrace averages them. \throws std::invalid_argument unless there is one
+/// for each
+RaytracedPicture assemblePicture(const TracedSurface& surface, const std::vector<Rgb>& radiance);
 
 }  // namespace nacre

@@ -13,6 +13,7 @@
 #include "core/file.hpp"
 #include "core/version.hpp"
 #include "demos/entry.hpp"
+#include "demos/environment_exhibits.hpp"
 #include "demos/recipe.hpp"
 #include "demos/stage.hpp"
 #include "shading/context.hpp"
@@ -64,15 +65,28 @@ private:
     std::size_t count_, index_ = 0;
 };
 
-std::vector<Recipe> chosen(std::vector<Recipe> all, const std::vector<std::string>& ids) {
-    if (ids.empty()) return all;
-    std::vector<Recipe> list;
+/// What the command line asks for; everything when it names nothing.
+struct Choice {
+    std::vector<Recipe> recipes;
+    std::vector<std::string> exhibits;
+};
+
+Choice chosen(std::vector<Recipe> all, const std::vector<std::string>& ids) {
+    const std::vector<std::string> exhibits = environmentExhibitIds();
+    if (ids.empty()) return {std::move(all), exhibits};
+    std::vector<std::string> known;
+    for (const Recipe& r : all) known.push_back(r.id);
+    known.insert(known.end(), exhibits.begin(), exhibits.end());
+    Choice list;
     for (const std::string& id : ids) {
         const auto at = std::find_if(all.begin(), all.end(), [&](const Recipe& r) { return r.id == id; });
-        std::vector<std::string> known;
-        for (const Recipe& r : all) known.push_back(r.id);
-        require(at != all.end(), fmt::format("unknown entry '{}'; known: {}", id, fmt::join(known, ", ")));
-        list.push_back(*at);
+        if (at != all.end()) {
+            list.recipes.push_back(*at);
+            continue;
+        }
+        require(std::find(exhibits.begin(), exhibits.end(), id) != exhibits.end(),
+                fmt::format("unknown entry '{}'; known: {}", id, fmt::join(known, ", ")));
+        list.exhibits.push_back(id);
     }
     return list;
 }
@@ -86,9 +100,11 @@ void writePictures(const Gallery& gallery, const std::filesystem::path& folder) 
         write(entry.reference);
         for (const Shot& shot : entry.shots) write(shot.picture), write(shot.difference);
     }
+    for (const Exhibit& exhibit : gallery.exhibits)
+        for (const Picture* picture : picturesOf(exhibit)) write(*picture);
 }
 
-Gallery makeGallery(const Arguments& arguments, const std::vector<Recipe>& recipes) {
+Gallery makeGallery(const Arguments& arguments, const Choice& choice) {
     const auto start = std::chrono::steady_clock::now();
     const Context context;
     ProgramLoader loader;
@@ -97,7 +113,8 @@ Gallery makeGallery(const Arguments& arguments, const std::vector<Recipe>& recip
     gallery.renderer = context.description();
     gallery.machine = machineWords();
     gallery.quick = arguments.quick;
-    Reporter reporter(arguments.quiet, recipes.size());
+    const std::vector<Recipe>& recipes = choice.recipes;
+    Reporter reporter(arguments.quiet, recipes.size() + choice.exhibits.size());
     BakedCache baked;
     EntryOptions options;
     options.folder = arguments.out;
@@ -109,6 +126,15 @@ Gallery makeGallery(const Arguments& arguments, const std::vector<Recipe>& recip
         if (!stage.note.empty()) gallery.notes.push_back(recipes[i].id + ": " + stage.note);
         gallery.entries.push_back(makeEntry(recipes[i], stage, loader, baked, options));
     }
+    ExhibitOptions exhibitOptions;
+    exhibitOptions.worldFolder = std::filesystem::path(arguments.data) / "world";
+    exhibitOptions.quick = arguments.quick;
+    exhibitOptions.timingRepeats = options.timingRepeats;
+    exhibitOptions.progress = options.progress;
+    for (std::size_t i = 0; i < choice.exhibits.size(); ++i) {
+        reporter.begin(recipes.size() + i);
+        gallery.exhibits.push_back(makeEnvironmentExhibit(choice.exhibits[i], loader, exhibitOptions, gallery.notes));
+    }
     reporter.end();
     gallery.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     return gallery;
@@ -116,21 +142,22 @@ Gallery makeGallery(const Arguments& arguments, const std::vector<Recipe>& recip
 
 int run(const Arguments& arguments) {
     const std::filesystem::path out = arguments.out;
-    const std::vector<Recipe> recipes = chosen(galleryRecipes(arguments.brdf), arguments.entries);
+    const Choice choice = chosen(galleryRecipes(arguments.brdf), arguments.entries);
     if (arguments.list) {
-        for (const Recipe& r : recipes) fmt::print("{}\t{}\n", r.id, bakeCommand(r));
+        for (const Recipe& r : choice.recipes) fmt::print("{}\t{}\n", r.id, bakeCommand(r));
+        for (const std::string& id : choice.exhibits) fmt::print("{}\tan exhibit: its page has its commands\n", id);
         return 0;
     }
     std::error_code failed;
     std::filesystem::create_directories(out, failed);
     if (failed) throw Error(out.string() + ": expected a folder to write to, found: " + failed.message());
-    const Gallery gallery = makeGallery(arguments, recipes);
+    const Gallery gallery = makeGallery(arguments, choice);
     writePictures(gallery, out);
     writeFile(out / "gallery.json", galleryJson(gallery).dump(2) + "\n");
     writeFile(out / "index.html", galleryPage(gallery));
     if (!arguments.quiet)
-        fmt::print(stderr, "gallery: {} entries in {:.0f} s: {}\n", gallery.entries.size(), gallery.seconds,
-                   (out / "index.html").string());
+        fmt::print(stderr, "gallery: {} entries in {:.0f} s: {}\n", gallery.entries.size() + gallery.exhibits.size(),
+                   gallery.seconds, (out / "index.html").string());
     return 0;
 }
 

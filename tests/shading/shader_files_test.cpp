@@ -61,9 +61,27 @@ std::vector<ShaderDefines> prefilterChoices() {
     return out;
 }
 
+/// Every layout with every role; every weight and combination.
+std::vector<ShaderDefines> environmentChoices() {
+    std::vector<ShaderDefines> out{{}};
+    const char* weights[] = {"NACRE_ENV_ONE", "NACRE_ENV_FRESNEL", "NACRE_ENV_SCALE_BIAS",
+                             "NACRE_ENV_SCALE_BIAS_MULTIPLE"};
+    int next = 0;
+    for (const char* layout :
+         {"NACRE_ENV_CUBE", "NACRE_ENV_LATLONG", "NACRE_ENV_DUAL_PARABOLOID", "NACRE_ENV_OCTAHEDRAL"})
+        out.push_back({{"NACRE_ENV_LAYOUT", layout},
+                       {"NACRE_ENV_REFLECTION", "1"},
+                       {"NACRE_ENV_TRANSMISSION", "1"},
+                       {"NACRE_ENV_DIFFUSE", "1"},
+                       {"NACRE_ENV_WEIGHT", weights[next++]},
+                       {"NACRE_ENV_COMBINE", next % 2 == 0 ? "NACRE_ENV_ADD" : "NACRE_ENV_BLEND"}});
+    return out;
+}
+
 std::vector<ShaderDefines> choicesFor(const std::string& file) {
     if (file == "nacre/bind/factored_brdf.glsl") return factoredChoices();
     if (file == "nacre/bind/direct_brdf.glsl") return directChoices();
+    if (file == "nacre/bind/environment.glsl") return environmentChoices();
     if (file == "nacre/bind/brdf.glsl") {
         std::vector<ShaderDefines> out = factoredChoices();
         for (ShaderDefines& defines : directChoices()) out.push_back(std::move(defines));
@@ -110,6 +128,15 @@ std::vector<ProgramCase> programs() {
     out.push_back({"fullscreen.vert.glsl", "prefilter.frag.glsl", prefilterChoices()});
     out.push_back({"fullscreen.vert.glsl", "prefilter_copy.frag.glsl", {{}}});
     out.push_back({"fullscreen.vert.glsl", "prefilter_halve.frag.glsl", {{}}});
+    const std::vector<ShaderDefines> surroundings = environmentChoices();
+    out.push_back({"lit.vert.glsl", "environment.frag.glsl", {surroundings.rbegin(), surroundings.rend()}});
+    out.push_back({"sky.vert.glsl", "sky.frag.glsl", surroundings});
+    std::vector<ShaderDefines> both;
+    for (ShaderDefines defines : surroundings) {
+        defines.insert(defines.begin(), brdfs.front().begin(), brdfs.front().end());
+        both.push_back(std::move(defines));
+    }
+    out.push_back({"lit.vert.glsl", "lit_environment.frag.glsl", both});
     return out;
 }
 

@@ -1,0 +1,33 @@
+// What the makers of environment exhibits share.
+#pragma once
+
+#include "demos/environment_exhibits.hpp"
+#include "demos/exhibit_builder.hpp"
+#include "demos/surrounding.hpp"
+
+namespace nacre {
+
+/// One exhibit to be made.
+struct Task {
+    ProgramLoader& loader;
+    const ExhibitOptions& options;
+    std::vector<std::string>& notes;
+    std::string id;
+
+    int size(int full) const { return options.quick ? full / 2 : full; }
+    BuilderOptions builder() const { return {options.timingRepeats, options.progress}; }
+    Surrounding open(const std::string& name) const;  ///< notes what stands in
+};
+
+/// The truth's samples, before the surrounding as it came.
+std::vector<Rgb> shade(const Body& body, const SurroundedSurface& surface, const EnvMap& sky);
+
+/// `nacre envmap FILE -o …`, which makes what this program made by the same calls. Empty for a made-up sky.
+std::vector<std::string> envmapCommands(const Surrounding& s, const std::vector<std::string>& rest);
+
+/// environment_sweeps.cpp
+Exhibit ggxSweepExhibit(const Task& task);
+Exhibit sunExhibit(const Task& task);
+Exhibit lampsExhibit(const Task& task);
+
+}  // namespace nacre

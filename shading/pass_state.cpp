@@ -1,0 +1,60 @@
+#include "shading/pass_state.hpp"
+
+#include <epoxy/gl.h>
+#include <fmt/format.h>
+
+#include <array>
+
+#include "core/error.hpp"
+#include "shading/context.hpp"
+
+namespace nacre {
+
+Vec3 orthographicDirection(const Camera& camera) { return glm::normalize(camera.eye - camera.target); }
+
+void checkLights(std::span<const Light> lights, int most) {
+    const auto count = static_cast<int>(lights.size());
+    require(count <= most, fmt::format("lit pass: at most {} lights, found {}", most, count));
+    for (const Light& light : lights)
+        require(!light.directional || std::abs(glm::length(light.position) - 1) < 1e-6,
+                "lit pass: the direction to a directional light must have unit length");
+}
+
+ShaderDefines withLights(ShaderDefines defines, std::span<const Light> lights) {
+    defines.emplace_back("NACRE_LIGHTS", std::to_string(lights.size()));
+    return defines;
+}
+
+void setView(const Program& program, const Camera& camera, const RenderTarget& target) {
+    const double aspect = static_cast<double>(target.width()) / target.height();
+    program.set("nacre_world_to_clip", glm::mat4(camera.projection(aspect) * camera.view()));
+    const Vec4 eye = camera.orthographic ? Vec4(orthographicDirection(camera), 0) : Vec4(camera.eye, 1);
+    program.set("nacre_eye", glm::vec4(eye));
+}
+
+void setLights(const Program& program, const LitView& view) {
+    std::array<glm::vec4, kMaxLights> positions{};
+    std::array<glm::vec3, kMaxLights> colors{};
+    for (std::size_t i = 0; i < view.lights.size(); ++i) {
+        positions[i] = glm::vec4(glm::vec3(view.lights[i].position), view.lights[i].directional ? 0.0f : 1.0f);
+        colors[i] = glm::vec3(view.lights[i].color);
+    }
+    program.set("nacre_light_count", static_cast<int>(view.lights.size()));
+    program.set("nacre_light_position", positions);
+    program.set("nacre_light_color", colors);
+    program.set("nacre_ambient", glm::vec3(view.ambient));
+}
+
+void drawMesh(const Program& program, const RenderTarget& target, const GpuMesh& mesh) {
+    target.bind();
+    glEnable(GL_DEPTH_TEST);
+    glDepthFunc(GL_LESS);
+    glDepthMask(GL_TRUE);
+    glDisable(GL_CULL_FACE);
+    glDisable(GL_BLEND);
+    program.use();
+    mesh.draw();
+    checkGl("drawing a mesh");
+}
+
+}  // namespace nacre

@@ -1,0 +1,22 @@
+// What the passes that draw meshes have in common: camera and lights as uniforms, and the state of a draw.
+#pragma once
+
+#include "shading/lit_pass.hpp"
+
+namespace nacre {
+
+Vec3 orthographicDirection(const Camera& camera);  ///< towards the viewer, unit
+
+/// \throws std::invalid_argument with more than `most` lights, or a directional one that is not unit length
+void checkLights(std::span<const Light> lights, int most);
+/// Adds NACRE_LIGHTS: one program for each number of lights, see bind/lights.glsl.
+ShaderDefines withLights(ShaderDefines defines, std::span<const Light> lights);
+
+/// Uniforms of nacre/bind/view.glsl and lights.glsl. Leave `program` in use.
+void setView(const Program& program, const Camera& camera, const RenderTarget& target);
+void setLights(const Program& program, const LitView& view);
+
+/// Binds the target and draws with depth test and depth write on, face culling and blending off; leaves these so.
+void drawMesh(const Program& program, const RenderTarget& target, const GpuMesh& mesh);
+
+}  // namespace nacre
