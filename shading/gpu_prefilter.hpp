@@ -25,6 +25,7 @@ struct GpuPrefilterOptions {
 /// behind it. Sums are deterministic quadrature (shaders/nacre/prefilter.glsl) and divided by those over a white map,
 /// so a white surrounding stays white to rounding; the same bits for any time budget.
 ///
+/// Lookups across edges are smooth where the driver filters seamlessly: enable GL_TEXTURE_CUBE_MAP_SEAMLESS on desktop.
 /// Needs rendering to 32-bit floats (ES 3: EXT_color_buffer_float). Cost a texel: about 16 detail² lobe evaluations for
 /// each doubling of the angle between the lobe's width, or a texel, and its end.
 class GpuPrefilter {
