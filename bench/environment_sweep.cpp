@@ -172,7 +172,9 @@ int affordableSamples(int samples, int sourceSize) {
 
 std::vector<EnvironmentMeasurement> sweepEnvironments(const std::vector<BenchSurrounding>& surroundings,
                                                       const EnvironmentSweepOptions& options) {
-    const std::vector<int> sizes = options.quick ? std::vector{128} : std::vector{128, 256, 512, 1024};
+    const std::vector<int> sizes = !options.sizes.empty() ? options.sizes
+                                   : options.quick        ? std::vector{128}
+                                                          : std::vector{128, 256, 512, 1024};
     const std::vector<double> tolerances =
         options.quick ? std::vector{1e-2, 6e-4} : std::vector{3e-2, 1e-2, 3e-3, 6e-4, 1e-4};
     const std::vector<int> counts = options.quick ? std::vector{64, 1024} : std::vector{64, 256, 1024, 4096};
