@@ -185,7 +185,7 @@ int main(int argc, char** argv) {
     app.add_option("--techniques", arguments.techniques, "only these: factored, environment")
         ->check(CLI::IsMember({"factored", "environment"}));
     app.add_option("--source-sizes", arguments.sourceSizes, "of the environments' curves: edges of the source cube")
-        ->check(CLI::Range(32, 4096));
+        ->check(CLI::IsMember({32, 64, 128, 256, 512, 1024, 2048}));
     app.add_option("--materials", arguments.materials, "only these (names as --list prints them)");
     app.add_flag("--quick", arguments.quick, "few materials and settings: a minute or two");
     app.add_flag("--bars", arguments.barsOnly, "print the promised figures as PASS or MISS, and nothing else");

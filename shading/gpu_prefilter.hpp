@@ -14,7 +14,8 @@ namespace nacre {
 
 struct GpuPrefilterOptions {
     /// Source texels a width of the lobe, and as many an angle farther out. The error falls with its square or faster
-    /// and the cost grows with its square: 8 holds 0.1 % of the mean (rmse) against the baker, 16 holds 0.03 %.
+    /// and the cost grows with its square. Worst level, rmse as a share of the mean, over an even map, lamps and suns:
+    /// 0.55 % with 8, 1.4 % with 4.
     double detail = 8;
     /// Of the result. Half floats filter everywhere, but drivers may truncate them.
     ColorFormat color = ColorFormat::Rgba16F;
