@@ -8,10 +8,14 @@
 
 namespace nacre::bench {
 
+bool EnvironmentGpu::drawnByCpu() const {
+    const std::string renderer = description();
+    return renderer.find("llvmpipe") != std::string::npos || renderer.find("softpipe") != std::string::npos;
+}
+
 EnvironmentMeasurement EnvironmentGpu::measure(const ChainTruth& truth, double detail) {
     context_.makeCurrent();
-    const std::string renderer = description();
-    const bool onCpu = renderer.find("llvmpipe") != std::string::npos || renderer.find("softpipe") != std::string::npos;
+    const bool onCpu = drawnByCpu();
     const auto seconds = [onCpu] {
         return onCpu ? processCpuSeconds()
                      : std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();

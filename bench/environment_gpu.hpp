@@ -13,9 +13,10 @@ public:
     EnvironmentGpu() = default;
 
     std::string description() const { return context_.description(); }
+    bool drawnByCpu() const;  ///< llvmpipe, softpipe
 
     /// One chain by GpuPrefilter, 32-bit floats. cpuSeconds is wall time between two glFinish, or, where OpenGL runs on
-    /// the CPU (llvmpipe, softpipe), CPU time of all threads.
+    /// the CPU, CPU time of all threads.
     EnvironmentMeasurement measure(const ChainTruth& truth, double detail);
 
 private:

@@ -172,12 +172,16 @@ int affordableSamples(int samples, int sourceSize) {
 
 std::vector<EnvironmentMeasurement> sweepEnvironments(const std::vector<BenchSurrounding>& surroundings,
                                                       const EnvironmentSweepOptions& options) {
-    const std::vector<int> sizes = options.quick ? std::vector{128} : std::vector{128, 256, 512, 1024};
+    const std::vector<int> sizes = !options.sizes.empty() ? options.sizes
+                                   : options.quick        ? std::vector{128}
+                                                          : std::vector{128, 256, 512, 1024};
     const std::vector<double> tolerances =
         options.quick ? std::vector{1e-2, 6e-4} : std::vector{3e-2, 1e-2, 3e-3, 6e-4, 1e-4};
     const std::vector<int> counts = options.quick ? std::vector{64, 1024} : std::vector{64, 256, 1024, 4096};
     const std::size_t maps = options.quick ? std::min<std::size_t>(1, surroundings.size()) : surroundings.size();
     const std::vector<double> details = options.quick ? std::vector{8.0} : std::vector{2.0, 4.0, 8.0, 16.0};
+    constexpr int kLargestDrawnByCpu = 256;  // beyond it a chain takes a CPU minutes
+    const bool slowGpu = options.gpu && options.gpu->drawnByCpu();
     std::vector<EnvironmentMeasurement> out;
     for (const int size : sizes)
         for (const Chain chain : kChains)
@@ -189,7 +193,7 @@ std::vector<EnvironmentMeasurement> sweepEnvironments(const std::vector<BenchSur
                 for (const double tolerance : tolerances) out.push_back(measurePrefilter(truth, tolerance));
                 for (const bool filtered : {true, false})
                     for (const int count : counts) out.push_back(measureImportance(truth, count, filtered));
-                if (options.gpu)
+                if (options.gpu && !(slowGpu && size > kLargestDrawnByCpu))
                     for (const double detail : details) out.push_back(options.gpu->measure(truth, detail));
                 for (int reduced = 16; reduced < size && reduced <= 128; reduced *= 2)
                     out.push_back(measureReducedSums(truth, reduced));

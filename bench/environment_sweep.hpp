@@ -67,6 +67,7 @@ EnvironmentMeasurement measureReducedSums(const ChainTruth& truth, int reducedSi
 
 struct EnvironmentSweepOptions {
     bool quick = false;             ///< one size and the synthetic surrounding alone
+    std::vector<int> sizes = {};    ///< of the source; empty: 128, 256, 512, 1024, or 128 alone when quick
     EnvironmentGpu* gpu = nullptr;  ///< null: no OpenGL, no curve of it
     Progress progress{};
 };

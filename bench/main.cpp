@@ -24,6 +24,7 @@ namespace fs = std::filesystem;
 
 struct Arguments {
     std::string out = "build/bench", shared;
+    std::vector<int> sourceSizes;
     std::vector<std::string> materials, techniques = {"factored", "environment"};
     bool quick = false, barsOnly = false, noBars = false, noGpu = false, quiet = false, list = false;
 };
@@ -133,8 +134,8 @@ void runEnvironment(const Arguments& arguments, const Progress& progress, Report
     if (arguments.barsOnly) return;
     std::optional<EnvironmentGpu> gpu = openGpu<EnvironmentGpu>(arguments, report.notes);
     if (gpu && report.renderer.empty()) report.renderer = gpu->description();
-    for (EnvironmentMeasurement& m :
-         sweepEnvironments(list.surroundings, {arguments.quick, gpu ? &*gpu : nullptr, progress}))
+    for (EnvironmentMeasurement& m : sweepEnvironments(
+             list.surroundings, {arguments.quick, arguments.sourceSizes, gpu ? &*gpu : nullptr, progress}))
         report.environments.push_back(std::move(m));
 }
 
@@ -183,6 +184,8 @@ int main(int argc, char** argv) {
         ->capture_default_str();
     app.add_option("--techniques", arguments.techniques, "only these: factored, environment")
         ->check(CLI::IsMember({"factored", "environment"}));
+    app.add_option("--source-sizes", arguments.sourceSizes, "of the environments' curves: edges of the source cube")
+        ->check(CLI::IsMember({32, 64, 128, 256, 512, 1024, 2048}));
     app.add_option("--materials", arguments.materials, "only these (names as --list prints them)");
     app.add_flag("--quick", arguments.quick, "few materials and settings: a minute or two");
     app.add_flag("--bars", arguments.barsOnly, "print the promised figures as PASS or MISS, and nothing else");

@@ -14,7 +14,8 @@ namespace nacre {
 
 struct GpuPrefilterOptions {
     /// Source texels a width of the lobe, and as many an angle farther out. The error falls with its square or faster
-    /// and the cost grows with its square: 8 holds 0.1 % of the mean (rmse) against the baker, 16 holds 0.03 %.
+    /// and the cost grows with its square. Worst level, rmse as a share of the mean, over an even map, lamps and suns:
+    /// 0.55 % with 8, 1.4 % with 4.
     double detail = 8;
     /// Of the result. Half floats filter everywhere, but drivers may truncate them.
     ColorFormat color = ColorFormat::Rgba16F;
@@ -25,6 +26,7 @@ struct GpuPrefilterOptions {
 /// behind it. Sums are deterministic quadrature (shaders/nacre/prefilter.glsl) and divided by those over a white map,
 /// so a white surrounding stays white to rounding; the same bits for any time budget.
 ///
+/// Lookups across edges are smooth where the driver filters seamlessly: enable GL_TEXTURE_CUBE_MAP_SEAMLESS on desktop.
 /// Needs rendering to 32-bit floats (ES 3: EXT_color_buffer_float). Cost a texel: about 16 detail² lobe evaluations for
 /// each doubling of the angle between the lobe's width, or a texel, and its end.
 class GpuPrefilter {
