@@ -151,7 +151,7 @@ TEST(CommandFactorize, BudgetThatCannotBeMetFails) {
     expectFailure(nacre(bake(scratch / "a.exr", {"--size", "64", "--max-bytes", "100"})), 1, {"at most 100 bytes"});
     expectFailure(nacre(bake(scratch / "a.exr", {"--size", "8", "--max-error", "1e-9"})), 1, {"l2_rel <= 1e-09"});
     expectFailure(nacre(bake(scratch / "a.exr", {"--max-bytes", "1", "--max-error", "1e-9"})), 1,
-                  {"the smallest takes at least"});
+                  {"the smallest takes"});
     expectFailure(nacre(bake(scratch / "a.exr", {"--max-bytes", "9000", "--max-error", "1e-9"})), 1,
                   {"nearest tried: ", "with error"});
     expectFailure(nacre(bake(scratch / "a.exr", {"--max-fetches", "0"})), 2, {"--max-fetches", "1 to 64"});
