@@ -76,10 +76,14 @@ static void forEachLine(Take&& take) {
 }
 
 static void runEval(const Settings& s) {
-    Evaluator evaluator{factoredFromAsset(readAsset(s.file), s.file), {}, s.threads};
+    const Asset asset = readAsset(s.file);
+    Evaluator evaluator{factoredFromAsset(asset, s.file), {}, s.threads};
     if (!s.source.empty()) {
         const Reflectance reflectance = openReflectance(s.source);
         tellDataReport(reflectance);
+        const std::string own = asset.meta.value("source", "");
+        if (!own.empty() && own != reflectance.source)
+            tell(fmt::format("{}: baked from {}, set against {}", s.file, own, reflectance.source));
         evaluator.truth = truthOf(reflectance);
     }
     DirectionReader reader;
