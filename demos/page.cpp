@@ -13,6 +13,8 @@
 namespace nacre {
 namespace {
 
+const std::string kSpeedUp = "speed-up: direct ÷ factored";
+
 /// differenceColor from 0 to 1 as CSS.
 std::string differenceGradient() {
     constexpr int kStops = 11;
@@ -48,6 +50,11 @@ std::string psnrText(double psnr) { return psnr < 200 ? fmt::format("{:.1f} dB",
 
 std::string percent(double share) { return formatNumber(100 * share, 3) + " %"; }
 
+std::string duration(double seconds) {
+    if (seconds < 1) return formatNumber(std::max(1.0, std::round(1000 * seconds))) + " ms";
+    return formatNumber(seconds) + " s";
+}
+
 /// A cell that shows its column's name where the table becomes a list, on narrow screens.
 std::string cell(const std::string& name, const std::string& value) {
     return fmt::format("<td data-name=\"{}\"><span>{}</span></td>", name, value);
@@ -61,30 +68,30 @@ std::string headRow(const std::vector<std::string>& names) {
 
 std::string summaryTable(const Gallery& gallery) {
     std::string html = "<table class=\"cards\">" +
-                       headRow({"entry", "E<sub>L2</sub>", "picture", "bytes", "fetches", "frame", "cost ratio"}) +
+                       headRow({"entry", "E<sub>L2</sub>", "picture", "bytes", "fetches", "frame", kSpeedUp}) +
                        "<tbody>\n";
     for (const Entry& e : gallery.entries) {
         const Shot& shot = e.shots.front();
         html += fmt::format("<tr><td><a href=\"#{}\">{}</a></td>", e.id, escapeHtml(e.title)) +
                 cell("E_L2", percent(e.asset.error.l2Rel)) + cell("picture", psnrText(shot.psnr)) +
                 cell("bytes", formatBytes(e.asset.bytes)) + cell("fetches", std::to_string(e.asset.fetches)) +
-                cell("frame", formatNumber(shot.milliseconds) + " ms") + cell("cost ratio", ratio(e, shot)) + "</tr>\n";
+                cell("frame", formatNumber(shot.milliseconds) + " ms") + cell(kSpeedUp, ratio(e, shot)) + "</tr>\n";
     }
     return html + "</tbody></table>\n";
 }
 
 std::string timeRow(const std::string& name, double milliseconds) {
     return fmt::format("<tr><td>{}</td>", escapeHtml(name)) + cell("PSNR", "–") + cell("rel. error", "–") +
-           cell("frame", formatNumber(milliseconds) + " ms") + cell("cost ratio", "–") + "</tr>\n";
+           cell("frame", formatNumber(milliseconds) + " ms") + cell(kSpeedUp, "–") + "</tr>\n";
 }
 
 std::string shotTable(const Entry& e) {
     std::string html =
-        "<table class=\"cards\">" + headRow({"drawn", "PSNR", "relative error", "frame", "cost ratio"}) + "<tbody>\n";
+        "<table class=\"cards\">" + headRow({"drawn", "PSNR", "relative error", "frame", kSpeedUp}) + "<tbody>\n";
     for (const Shot& shot : e.shots)
         html += fmt::format("<tr><td>{}</td>", escapeHtml(shot.label)) + cell("PSNR", psnrText(shot.psnr)) +
                 cell("rel. error", percent(shot.relativeError)) +
-                cell("frame", formatNumber(shot.milliseconds) + " ms") + cell("cost ratio", ratio(e, shot)) + "</tr>\n";
+                cell("frame", formatNumber(shot.milliseconds) + " ms") + cell(kSpeedUp, ratio(e, shot)) + "</tr>\n";
     if (e.directMilliseconds) html += timeRow("evaluated directly: " + e.directLabel, *e.directMilliseconds);
     html += timeRow("the mesh without light", e.geometryMilliseconds);
     return html + "</tbody></table>\n";
@@ -100,8 +107,7 @@ std::string assetFacts(const AssetFacts& a) {
            fact("fetches", std::to_string(a.fetches)) + fact("E<sub>L2</sub> to 80°", percent(a.error.l2Rel)) +
            fact("E<sub>L2</sub> 80–89°", percent(a.error.grazingL2Rel)) +
            fact("E<sub>log</sub>", formatNumber(a.error.logRms)) + fact("largest relative", percent(a.error.maxRel)) +
-           fact("lit sphere", psnrText(a.error.spherePsnr)) + fact("baked in", formatNumber(a.bakeSeconds) + " s") +
-           "</dl>\n";
+           fact("lit sphere", psnrText(a.error.spherePsnr)) + fact("baked in", duration(a.bakeSeconds)) + "</dl>\n";
 }
 
 std::string referenceFigure(const Entry& e) {
@@ -148,11 +154,19 @@ std::string introduction(const Gallery& gallery) {
         "same run.</p>\n<p>All pictures of an entry have the reference's exposure. A difference is that of the values "
         "shown (sRGB, 0 to 1), the largest of the three channels, as a colour; the PSNR is of the same values; the "
         "relative error is √Σ(picture − reference)² ÷ √Σ reference² of linear radiance. Pixels at the outline are left "
-        "out. The cost ratio is the time of evaluating the model directly over that of the lookups, both less the time "
-        "of the same frame without light. E<sub>L2</sub> is the relative error of the reflectance itself over all "
+        "out. The speed-up is the time of evaluating the model directly ÷ that of the lookups, both less the time "
+        "of the same frame without light: above 1 the lookups are faster. E<sub>L2</sub> is the relative error of the "
+        "reflectance itself over all "
         "directions up to 80°, read back "
         "from the file through the stored format and the texture filter. <code>reference/brdf_metrics.hpp</code> and "
-        "<code>reference/image_compare.hpp</code> define these numbers.</p>\n";
+        "<code>reference/image_compare.hpp</code> define these numbers.</p>\n"
+        "<ul>\n<li>PSNR: peak signal-to-noise ratio, −10 log₁₀ of the mean squared difference of shown values, in dB; "
+        "more is nearer, and from 40 dB on hardly anybody sees a difference.</li>\n<li>E<sub>log</sub>: root mean "
+        "square "
+        "of ln((factored + 0.001) ÷ (true + 0.001)) over directions up to 80°: the dark parts count as much as the "
+        "bright.</li>\n<li>Lit sphere: PSNR of a sphere in the light of six lamps, factored against true.</li>\n"
+        "<li>HSE: W. Heidrich, “Hardware Shading Effects”, chapter 3 of the SIGGRAPH course “Real-time "
+        "Shading”, whose figures the first sections follow.</li>\n</ul>\n";
     html += fmt::format("<p class=\"soft\">nacre {}; {}; {}; made in {} s{}</p>\n", escapeHtml(gallery.version),
                         escapeHtml(gallery.renderer), escapeHtml(gallery.machine), formatNumber(gallery.seconds),
                         gallery.quick ? "; <strong>quick run: small pictures, few samples</strong>" : "");
