@@ -164,7 +164,7 @@ std::string introduction(const Gallery& gallery) {
         "more is nearer, and from 40 dB on hardly anybody sees a difference.</li>\n<li>E<sub>log</sub>: root mean "
         "square "
         "of ln((factored + 0.001) ÷ (true + 0.001)) over directions up to 80°: the dark parts count as much as the "
-        "bright.</li>\n<li>Lit sphere: PSNR of a sphere in the light of six lamps, factored against true.</li>\n"
+        "bright.</li>\n<li>Lit sphere: PSNR of a sphere lit by each of six lamps in turn, factored against true.</li>\n"
         "<li>HSE: W. Heidrich, “Hardware Shading Effects”, chapter 3 of the SIGGRAPH course “Real-time "
         "Shading”, whose figures the first sections follow.</li>\n</ul>\n";
     html += fmt::format("<p class=\"soft\">nacre {}; {}; {}; made in {} s{}</p>\n", escapeHtml(gallery.version),
