@@ -11,6 +11,7 @@
 #include "cli/verb.hpp"
 #include "core/asset.hpp"
 #include "core/error.hpp"
+#include "core/temporary_files.hpp"
 #include "core/version.hpp"
 
 namespace nacre::cli {
@@ -128,6 +129,7 @@ static std::string oneLine(std::string text) {
 
 int runCommand(int argc, const char* const* argv) {
     std::signal(SIGXFSZ, SIG_IGN);  // a file size limit then is a failed write like a full disk
+    removeTemporaryFilesOnSignals();
     try {
         return parseAndRun(argc, argv);
     } catch (const UsageError& error) {

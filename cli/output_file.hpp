@@ -17,15 +17,6 @@ std::filesystem::path provisionalName(const std::string& output);
 ///         nacre::Error when it can't be written
 void requireWritable(const std::string& source, const std::string& output, const std::filesystem::path& provisional);
 
-/// A file that is gone when the scope is left.
-struct ProvisionalFile {
-    std::filesystem::path path;
-    ~ProvisionalFile() {
-        std::error_code ignored;
-        std::filesystem::remove(path, ignored);
-    }
-};
-
 class Stopwatch {
 public:
     double seconds() const { return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count(); }

@@ -13,6 +13,7 @@
 #include "core/asset.hpp"
 #include "core/error.hpp"
 #include "core/file.hpp"
+#include "core/temporary_files.hpp"
 #include "envmaps/convert.hpp"
 #include "envmaps/env_asset.hpp"
 #include "envmaps/export_dds.hpp"
@@ -158,7 +159,7 @@ static json energyJson(const EnvMap& source, const EnvMap& written, unsigned thr
 
 static void runEnvmap(const Context& context, Settings& s) {
     const fs::path provisional = provisionalName(s.output);
-    const ProvisionalFile removeLater{provisional};
+    const TemporaryFile removeLater(provisional);
     requireWritable(s.source, s.output, provisional);
     s.in.layout = sourceLayoutFromString(s.sourceLayout);
     s.in.negative = negativePolicyFromString(s.negative);

@@ -64,6 +64,9 @@ static void runEval(const Settings& s) {
     if (!s.source.empty()) {
         const Reflectance reflectance = openReflectance(s.source);
         tellDataReport(reflectance);
+        const std::string own = asset.meta.value("source", "");
+        if (!own.empty() && own != reflectance.source)
+            tell(fmt::format("{}: baked from {}, set against {}", s.file, own, reflectance.source));
         evaluator.truth = truthOf(reflectance);
     }
     DirectionReader reader;

@@ -11,6 +11,7 @@
 #include "cli/verb.hpp"
 #include "core/asset.hpp"
 #include "core/error.hpp"
+#include "core/temporary_files.hpp"
 #include "factorize/factorize.hpp"
 #include "reference/factored_metrics.hpp"
 
@@ -30,11 +31,16 @@ struct Settings {
 }  // namespace
 
 static json dataJson(const DataReport& d) {
-    return {{"entries", d.entries},
-            {"missing", d.missing},
-            {"negative", d.negative},
-            {"non_finite", d.nonFinite},
-            {"rule", d.rule}};
+    json out = {{"entries", d.entries},
+                {"missing", d.missing},
+                {"negative", d.negative},
+                {"non_finite", d.nonFinite},
+                {"rule", d.rule}};
+    if (d.distinct > 0) {
+        out["distinct"] = d.distinct;
+        out["holdout_l2_rel"] = d.holdoutL2Rel;
+    }
+    return out;
 }
 
 /// The asset as it comes back from disk: what is measured is what a reader gets.
@@ -45,14 +51,16 @@ static Asset throughFile(const Asset& asset, const fs::path& path) {
 
 static std::string summaryText(const std::string& output, const json& meta) {
     const json& e = meta["error"];
-    const auto number = [&](const char* key) { return e[key].is_number() ? e[key].get<double>() : NAN; };
+    const auto number = [&](const char* key, const char* format) {  // JSON has no infinity
+        return e[key].is_number() ? fmt::format(fmt::runtime(format), e[key].get<double>()) : std::string("none");
+    };
     return fmt::format(
         "{}: {} by {}, textures: {}, {}, fetches: {}, {:.2f} s\n"
-        "l2_rel {:.4g}  log_rms {:.4g}  max_rel {:.4g}  grazing_l2_rel {:.4g}  sphere {:.1f} dB  albedo {:.2g}\n",
+        "l2_rel {}  log_rms {}  max_rel {}  grazing_l2_rel {}  sphere {} dB  albedo {}\n",
         output, meta.value("form", "?"), meta.value("method", "?"), meta["textures"].size(),
         humanBytes(meta["bytes"].get<std::size_t>()), meta.value("fetches", 0), meta["seconds"].get<double>(),
-        number("l2_rel"), number("log_rms"), number("max_rel"), number("grazing_l2_rel"), number("sphere_psnr"),
-        number("albedo_max_abs"));
+        number("l2_rel", "{:.4g}"), number("log_rms", "{:.4g}"), number("max_rel", "{:.4g}"),
+        number("grazing_l2_rel", "{:.4g}"), number("sphere_psnr", "{:.1f}"), number("albedo_max_abs", "{:.2g}"));
 }
 
 static void describe(json& meta, const Context& context, const Settings& s, const Reflectance& reflectance) {
@@ -78,7 +86,7 @@ static void requireBudget(const Settings& s, const FactoredBrdf& baked) {
 static void runFactorize(const Context& context, Settings& s) {
     if (const auto unused = unusedOption(s.options)) throw UsageError("--" + *unused);
     const fs::path provisional = provisionalName(s.output);
-    const ProvisionalFile removeLater{provisional};
+    const TemporaryFile removeLater(provisional);
     requireWritable(s.source, s.output, provisional);
 
     const Stopwatch baking;
@@ -99,7 +107,7 @@ static void runFactorize(const Context& context, Settings& s) {
     Asset asset = toAsset(baked);
     const Asset written = throughFile(asset, provisional);
     const Stopwatch measuring;
-    const FactoredBrdf readBack = factoredFromAsset(written, provisional.string());
+    const FactoredBrdf readBack = factoredFromAsset(written, s.output);
     const BrdfError error = measureBrdf(functionOf(readBack), truth, metric);
     requireBudget(s, baked);
     if (s.options.maxError && !(error.l2Rel <= *s.options.maxError))
@@ -148,8 +156,8 @@ Verb factorizeVerb(Context& context) {
         {"source", "SOURCE", "Model or file", into(s->source), true},
         {"-o,--output", "OUT.exr", "The asset to write", into(s->output), true},
         {"--method", "NAME", "Factorization (default auto)", into(o.method), false, methodNames()},
-        {"--size", "N", "Edge of the largest texture, 2 to 4096", integerInto(size, 2, 4096)},
-        {"--terms", "K", "Terms of the svd, harmonics of the fit, 1 to 3", integerInto(terms, 1, 3)},
+        {"--size", "N", "Edge of the largest texture, 2 to 4096 (svd: to 256)", integerInto(size, 2, 4096)},
+        {"--terms", "K", "Terms of the svd, 1 or 2; harmonics of the fit, 1 to 3", integerInto(terms, 1, 3)},
         {"--parametrization", "NAME", "Of svd", into(o.parametrization), false, {"half_diff", "in_out", "symmetric"}},
         {"--format", "NAME", "Storage (default half)", into(s->format), false, {"half", "float", "unorm8"}},
         {"--max-error", "E", "Budget: largest l2_rel", positiveInto([&o](double v) { o.maxError = v; })},

@@ -10,6 +10,7 @@
 #include "cli/verb.hpp"
 #include "core/asset.hpp"
 #include "core/error.hpp"
+#include "core/temporary_files.hpp"
 #include "envmaps/fresnel_table.hpp"
 #include "envmaps/scale_bias.hpp"
 #include "reference/fresnel_error.hpp"
@@ -71,7 +72,7 @@ Baked bakeWithin(const Settings& s, const FresnelIndex& index) {
 
 void runFresnel(const Context& context, const Settings& s) {
     const std::filesystem::path provisional = provisionalName(s.output);
-    const ProvisionalFile removeLater{provisional};
+    const TemporaryFile removeLater(provisional);
     requireWritable("", s.output, provisional);
     const FresnelIndex index{parseColour("--eta", s.eta), parseColour("--k", s.k)};
     const Stopwatch baking;

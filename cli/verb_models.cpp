@@ -96,7 +96,9 @@ Verb modelsVerb(Context&) {
     const auto s = std::make_shared<Settings>();
     Verb verb{"models", "List the models and micro-geometries with their parameters", "", {}, {}};
     verb.details =
-        "A model is written NAME or NAME:KEY=VALUE,KEY=VALUE. Colours are one number or R/G/B.\n"
+        "A model is written NAME or NAME:KEY=VALUE,KEY=VALUE, a micro-geometry micro:ridges,KEY=VALUE (or with a "
+        "colon:\n"
+        "micro:ridges:KEY=VALUE). Colours are one number or R/G/B.\n"
         "Example: nacre factorize torrance-sparrow:alpha=0.1,f=conductor,eta=1.5,k=3 -o metal.exr";
     verb.options = {{"name", "NAME", "Only this model", into(s->name)},
                     {"--json", "", "One JSON array on standard output", into(s->asJson)}};

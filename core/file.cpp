@@ -9,6 +9,7 @@
 #include <fstream>
 
 #include "core/error.hpp"
+#include "core/temporary_files.hpp"
 
 namespace nacre {
 
@@ -46,12 +47,12 @@ void writeThenRename(const fs::path& path, const std::function<void(const fs::pa
         throw Error(
             fmt::format("{}: can't write: expected a file or a free name, found a folder or device", path.string()));
     const fs::path temporary = path.string() + fmt::format(".{}.tmp", ::getpid());
+    const TemporaryFile removeLater(temporary);  // gone by its name after the rename
     try {
         write(temporary);
         flushToDisk(temporary);
         fs::rename(temporary, path);
     } catch (const std::exception& error) {
-        fs::remove(temporary, failure);
         throw Error(fmt::format("{}: can't write: {}", path.string(), error.what()));
     }
 }

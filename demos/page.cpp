@@ -14,6 +14,8 @@
 namespace nacre {
 namespace {
 
+const std::string kSpeedUp = "speed-up: direct ÷ factored";
+
 /// differenceColor from 0 to 1 as CSS.
 std::string differenceGradient() {
     constexpr int kStops = 11;
@@ -30,16 +32,21 @@ std::string ratio(const Entry& e, const Shot& shot) {
     return e.directMilliseconds ? costRatio(shot.milliseconds, *e.directMilliseconds, e.geometryMilliseconds) : "–";
 }
 
+std::string duration(double seconds) {
+    if (seconds < 1) return formatNumber(std::max(1.0, std::round(1000 * seconds))) + " ms";
+    return formatNumber(seconds) + " s";
+}
+
 std::string summaryTable(const Gallery& gallery) {
     std::string html = "<table class=\"cards\">" +
-                       headRowHtml({"entry", "E<sub>L2</sub>", "picture", "bytes", "fetches", "frame", "cost ratio"}) +
+                       headRowHtml({"entry", "E<sub>L2</sub>", "picture", "bytes", "fetches", "frame", kSpeedUp}) +
                        "<tbody>\n";
     for (const Entry& e : gallery.entries) {
         const Shot& shot = e.shots.front();
         html += fmt::format("<tr><td><a href=\"#{}\">{}</a></td>", e.id, escapeHtml(e.title)) +
                 cellHtml("E_L2", percentText(e.asset.error.l2Rel)) + cellHtml("picture", psnrText(shot.psnr)) +
                 cellHtml("bytes", formatBytes(e.asset.bytes)) + cellHtml("fetches", std::to_string(e.asset.fetches)) +
-                cellHtml("frame", formatNumber(shot.milliseconds) + " ms") + cellHtml("cost ratio", ratio(e, shot)) +
+                cellHtml("frame", formatNumber(shot.milliseconds) + " ms") + cellHtml(kSpeedUp, ratio(e, shot)) +
                 "</tr>\n";
     }
     return html + "</tbody></table>\n";
@@ -60,16 +67,16 @@ std::string exhibitTable(const Gallery& gallery) {
 
 std::string timeRow(const std::string& name, double milliseconds) {
     return fmt::format("<tr><td>{}</td>", escapeHtml(name)) + cellHtml("PSNR", "–") + cellHtml("rel. error", "–") +
-           cellHtml("frame", formatNumber(milliseconds) + " ms") + cellHtml("cost ratio", "–") + "</tr>\n";
+           cellHtml("frame", formatNumber(milliseconds) + " ms") + cellHtml(kSpeedUp, "–") + "</tr>\n";
 }
 
 std::string shotTable(const Entry& e) {
-    std::string html = "<table class=\"cards\">" +
-                       headRowHtml({"drawn", "PSNR", "relative error", "frame", "cost ratio"}) + "<tbody>\n";
+    std::string html =
+        "<table class=\"cards\">" + headRowHtml({"drawn", "PSNR", "relative error", "frame", kSpeedUp}) + "<tbody>\n";
     for (const Shot& shot : e.shots)
         html += fmt::format("<tr><td>{}</td>", escapeHtml(shot.label)) + cellHtml("PSNR", psnrText(shot.psnr)) +
                 cellHtml("rel. error", percentText(shot.relativeError)) +
-                cellHtml("frame", formatNumber(shot.milliseconds) + " ms") + cellHtml("cost ratio", ratio(e, shot)) +
+                cellHtml("frame", formatNumber(shot.milliseconds) + " ms") + cellHtml(kSpeedUp, ratio(e, shot)) +
                 "</tr>\n";
     if (e.directMilliseconds) html += timeRow("evaluated directly: " + e.directLabel, *e.directMilliseconds);
     html += timeRow("the mesh without light", e.geometryMilliseconds);
@@ -87,7 +94,7 @@ std::string assetFacts(const AssetFacts& a) {
            fact("E<sub>L2</sub> 80–89°", percentText(a.error.grazingL2Rel)) +
            fact("E<sub>log</sub>", formatNumber(a.error.logRms)) +
            fact("largest relative", percentText(a.error.maxRel)) + fact("lit sphere", psnrText(a.error.spherePsnr)) +
-           fact("baked in", formatNumber(a.bakeSeconds) + " s") + "</dl>\n";
+           fact("baked in", duration(a.bakeSeconds)) + "</dl>\n";
 }
 
 std::string referenceFigure(const Entry& e) {
@@ -134,11 +141,19 @@ std::string introduction(const Gallery& gallery) {
         "same run.</p>\n<p>All pictures of an entry have the reference's exposure. A difference is that of the values "
         "shown (sRGB, 0 to 1), the largest of the three channels, as a colour; the PSNR is of the same values; the "
         "relative error is √Σ(picture − reference)² ÷ √Σ reference² of linear radiance. Pixels at the outline are left "
-        "out. The cost ratio is the time of evaluating the model directly over that of the lookups, both less the time "
-        "of the same frame without light. E<sub>L2</sub> is the relative error of the reflectance itself over all "
+        "out. The speed-up is the time of evaluating the model directly ÷ that of the lookups, both less the time "
+        "of the same frame without light: above 1 the lookups are faster. E<sub>L2</sub> is the relative error of the "
+        "reflectance itself over all "
         "directions up to 80°, read back "
         "from the file through the stored format and the texture filter. <code>reference/brdf_metrics.hpp</code> and "
-        "<code>reference/image_compare.hpp</code> define these numbers.</p>\n";
+        "<code>reference/image_compare.hpp</code> define these numbers.</p>\n"
+        "<ul>\n<li>PSNR: peak signal-to-noise ratio, −10 log₁₀ of the mean squared difference of shown values, in dB; "
+        "more is nearer, and from 40 dB on hardly anybody sees a difference.</li>\n<li>E<sub>log</sub>: root mean "
+        "square "
+        "of ln((factored + 0.001) ÷ (true + 0.001)) over directions up to 80°: the dark parts count as much as the "
+        "bright.</li>\n<li>Lit sphere: PSNR of a sphere lit by each of six lamps in turn, factored against true.</li>\n"
+        "<li>HSE: W. Heidrich, “Hardware Shading Effects”, chapter 3 of the SIGGRAPH course “Real-time "
+        "Shading”, whose figures the first sections follow.</li>\n</ul>\n";
     if (!gallery.exhibits.empty())
         html +=
             "<p>Under the environment maps the light is a whole surrounding, filtered beforehand by the surface's lobe "

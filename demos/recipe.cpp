@@ -90,7 +90,6 @@ std::vector<Recipe> figure4() {
                          : "Same asset, same textures: only the camera and its lights went around.";
         r.stage = r.id;
         r.source = kRidges;
-        r.bake.method = "homomorphic";
         r.white = 0.6;
         list.push_back(r);
     }
@@ -146,7 +145,7 @@ std::vector<Recipe> measuredFiles(const std::filesystem::path& folder) {
         Recipe r;
         r.id = (rgl ? "rgl-" : "merl-") + lowerId(files[i].stem().string());
         r.section = kFiles;
-        r.title = files[i].filename().string();
+        r.title = files[i].stem().string();
         r.caption = rgl ? "Measured by the RGL goniophotometer." : "A table of the MERL format.";
         r.stage = std::string("scan:") + kShownFits[i % std::size(kShownFits)].mesh;
         r.source = files[i].string();

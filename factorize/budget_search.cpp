@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <set>
 
 #include "core/error.hpp"
 
@@ -23,7 +24,7 @@ struct Ladder {
     double bytesPerBound = 1;  ///< true bytes over BudgetCandidate::bytes
     double order = 2;          ///< of the error in the texels' size: the bilinear filter's until two bakes tell
     double lastBytes = 0, lastError = 0;
-    bool dropped = false;
+    bool dropped = false, tooManyFetches = false;
 
     /// The error at `bytes` if it falls with that power of the texels' size.
     double errorAt(double bytes, double power) const { return lastError * std::pow(lastBytes / bytes, power / 2); }
@@ -69,11 +70,12 @@ public:
 
     const Tried* smallestThatMeets() {
         for (Rung& rung : rungs_) {
-            if (!open(rung)) continue;
+            if (!open(rung) || passOver(rung)) continue;
             const Tried& t = attempt(rung);
             if (t.fits && t.error <= *options_.maxError) return &t;
             if (t.fits) giveUpWhenHopeless(rung);
         }
+        nameTheUsual();
         return nullptr;
     }
 
@@ -84,8 +86,8 @@ public:
         if (!nearest_.brdf.textures.empty())
             return fmt::format("nearest tried: {} with {} bytes, {} fetches", nearest_.brdf.method,
                                nearest_.brdf.bytes(), nearest_.brdf.fetches);
-        return fmt::format("the smallest takes at least {} bytes, and a lookup at least {} fetches", leastBytes_,
-                           leastFetches_);
+        return fmt::format("of the sizes tried the smallest takes {} bytes or more, and a lookup {} fetches or more",
+                           leastBytes_, leastFetches_);
     }
 
 private:
@@ -93,9 +95,27 @@ private:
         return static_cast<double>(rung.candidate.bytes) * ladders_[rung.candidate.ladder].bytesPerBound;
     }
 
-    bool open(const Rung& rung) {
-        return !ladders_[rung.candidate.ladder].dropped &&
-               (!options_.maxBytes || estimate(rung) <= static_cast<double>(*options_.maxBytes));
+    bool affordable(const Rung& rung) {
+        return !options_.maxBytes || estimate(rung) <= static_cast<double>(*options_.maxBytes);
+    }
+
+    bool open(const Rung& rung) { return !ladders_[rung.candidate.ladder].dropped && affordable(rung); }
+
+    bool passOver(const Rung& rung) {
+        const Ladder& ladder = ladders_[rung.candidate.ladder];
+        return !rung.tried && ladder.lastBytes > 0 &&
+               ladder.errorAt(estimate(rung), kFastest) > kNoise * *options_.maxError;
+    }
+
+    /// Ladders given up as far off were only tried at their smallest, which says little of how near they come.
+    void nameTheUsual() {
+        std::set<std::string> named;
+        for (auto rung = rungs_.rbegin(); rung != rungs_.rend(); ++rung) {
+            const BudgetCandidate& c = rung->candidate;
+            const Ladder& ladder = ladders_[c.ladder];
+            if (!c.usual || ladder.tooManyFetches || !affordable(*rung) || !named.insert(c.ladder).second) continue;
+            attempt(*rung);
+        }
     }
 
     const Tried& attempt(Rung& rung) {
@@ -104,8 +124,9 @@ private:
         t.brdf = rung.candidate.bake();
         Ladder& ladder = ladders_[rung.candidate.ladder];
         ladder.bytesPerBound = static_cast<double>(t.brdf.bytes()) / static_cast<double>(rung.candidate.bytes);
-        if (options_.maxFetches && t.brdf.fetches > *options_.maxFetches) ladder.dropped = true;  // at every size
-        t.fits = !ladder.dropped && (!options_.maxBytes || t.brdf.bytes() <= *options_.maxBytes);
+        if (options_.maxFetches && t.brdf.fetches > *options_.maxFetches)
+            ladder.dropped = ladder.tooManyFetches = true;  // at every size
+        t.fits = !ladder.tooManyFetches && (!options_.maxBytes || t.brdf.bytes() <= *options_.maxBytes);
         if (t.fits && options_.maxError) t.error = options_.measure(t.brdf);
         const bool smaller = nearest_.brdf.textures.empty() || t.brdf.bytes() < nearest_.brdf.bytes();
         if (t.error < nearest_.error || (!std::isfinite(nearest_.error) && smaller)) nearest_ = t;

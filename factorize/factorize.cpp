@@ -15,6 +15,7 @@ struct Candidate {
     std::string method;
     TextureSizes sizes;
     HalfDiffLayout layout = HalfDiffLayout::Harmonics;
+    int terms = 0;  ///< of svd; 0 = the method's own choice
 };
 
 FactoredBrdf bake(const Reflectance& r, const Candidate& c, const FactorizeOptions& options) {
@@ -24,6 +25,7 @@ FactoredBrdf bake(const Reflectance& r, const Candidate& c, const FactorizeOptio
     if (c.method == "homomorphic") return factorizeHomomorphic(r, c.sizes, options);
     if (c.method == "svd") {
         FactorizeOptions own = options;
+        own.terms = c.terms;
         if (options.method == "auto" && own.parametrization.empty()) own.parametrization = "symmetric";  // see suitable
         return factorizeSeparable(r, c.sizes, own);
     }
@@ -33,34 +35,27 @@ FactoredBrdf bake(const Reflectance& r, const Candidate& c, const FactorizeOptio
 
 TextureSizes square(int first, int second) { return {{first, first}, {second, second}}; }
 
-/// The method's sizes from small to large: what a budget search walks through.
-std::vector<Candidate> ladder(const std::string& method) {
-    std::vector<Candidate> out;
-    const auto add = [&](TextureSizes sizes, HalfDiffLayout layout = HalfDiffLayout::Harmonics) {
-        out.push_back({method, sizes, layout});
+/// Sizes from small to large: what a budget search walks through. The smallest are about the least that is worth a
+/// name; the largest have as many texels as the samples of a fit can fill.
+std::vector<TextureSizes> ladder(const Candidate& kind) {
+    std::vector<TextureSizes> out;
+    const auto squares = [&](std::initializer_list<int> edges, int divisor = 1) {
+        for (const int edge : edges) out.push_back(square(edge, std::max(2, edge / divisor)));
     };
-    if (method == "fit") {
-        add(square(16, 1), HalfDiffLayout::Compact);
-        add(square(24, 1), HalfDiffLayout::Compact);
-        add(square(32, 1), HalfDiffLayout::Compact);
-        add({{40, 24}, {16, 12}});  // 9 KiB in half floats
-        add({{48, 36}, {32, 24}});
-        add({{64, 48}, {40, 32}});
-        add(square(64, 64));
-        add(square(96, 64));
-    } else if (method == "analytic" || method == "cosine") {
-        for (int edge : {16, 32, 64, 128, 256}) add(square(edge, edge));
-    } else if (method == "homomorphic") {
-        add(square(24, 12));
-        add(square(32, 16));
-        add(square(48, 24));
-        add(square(64, 32));
-        add(square(96, 48));
-        add(square(128, 64));
-    } else if (method == "svd") {
-        for (int edge : {16, 24, 32, 48, 64}) add(square(edge, edge));
-    } else {
-        for (int edge : {32, 64, 128, 256, 512}) add(square(edge, edge));
+    if (kind.method == "fit" && kind.layout == HalfDiffLayout::Compact) {
+        squares({4, 8, 12, 16, 24, 32, 48, 64});
+    } else if (kind.method == "fit") {
+        out = {{{12, 8}, {6, 4}},    {{20, 12}, {8, 6}},   {{28, 16}, {12, 8}},
+               {{40, 24}, {16, 12}}, {{48, 36}, {32, 24}}, {{64, 48}, {40, 32}},
+               square(64, 64),       square(96, 64),       square(128, 128)};
+    } else if (kind.method == "analytic" || kind.method == "cosine") {
+        squares({4, 8, 12, 16, 24, 32, 48, 64, 96, 128, 256});
+    } else if (kind.method == "homomorphic") {
+        squares({6, 12, 16, 24, 32, 48, 64, 96, 128}, 2);
+    } else if (kind.method == "svd") {
+        squares({4, 8, 12, 16, 24, 32, 48, 64});
+    } else {  // single-lobe has two rows whatever the second size
+        squares({4, 8, 12, 16, 24, 32, 48, 64, 96, 128, 192, 256, 512, 1024});
     }
     return out;
 }
@@ -76,12 +71,31 @@ Candidate usual(const std::string& method, const Reflectance& r) {
     return c;
 }
 
+/// Terms decide the layout of the fit.
+Candidate withTerms(Candidate c, const FactorizeOptions& options) {
+    if (c.method == "fit" && options.terms == 1) c.layout = HalfDiffLayout::Compact;
+    if (c.method == "fit" && options.terms == 2) c.layout = HalfDiffLayout::Grazing;
+    if (c.method == "svd") c.terms = options.terms;
+    return c;
+}
+
+/// What a budget chooses among for one method, at its usual size; with more fetches before those with fewer.
+std::vector<Candidate> variants(const std::string& method, const Reflectance& r, const FactorizeOptions& options) {
+    const Candidate first = withTerms(usual(method, r), options);
+    if (options.terms != 0 || (method != "fit" && method != "svd")) return {first};
+    Candidate second = first;
+    if (method == "fit") {
+        second.layout = HalfDiffLayout::Compact;
+        second.sizes = square(32, 1);
+    }
+    second.terms = method == "svd" ? 1 : 0;
+    return {first, second};
+}
+
 Candidate ofSize(const std::string& method, const FactorizeOptions& options) {
     const int n = options.size;
     Candidate c{method, square(n, method == "homomorphic" ? std::max(2, n / 2) : n)};
-    if (method == "fit" && options.terms == 1) c.layout = HalfDiffLayout::Compact;
-    if (method == "fit" && options.terms == 2) c.layout = HalfDiffLayout::Grazing;
-    return c;
+    return withTerms(c, options);
 }
 
 /// Methods that fit the input, best first. `analytic` and the special forms are exact but for interpolation; `fit`
@@ -101,17 +115,17 @@ std::vector<std::string> suitable(const Reflectance& r, const FactorizeOptions& 
     return out;
 }
 
-int fetchesOf(const Candidate& c, const FactorizeOptions& options, const Reflectance& r) {
+int fetchesOf(const Candidate& c, const Reflectance& r) {
     if (c.method == "fit") return c.layout == HalfDiffLayout::Compact ? 1 : 2;
-    if (c.method == "svd") return 2 * (options.terms == 0 ? 2 : options.terms);
+    if (c.method == "svd") return 2 * (c.terms == 0 ? 2 : c.terms);
     if (c.method == "single-lobe" || c.method == "tangent") return 1;
-    if (c.method == "homomorphic") return r.microfacet ? 1 : 3;  // at least
+    if (c.method == "homomorphic") return r.microfacet ? 1 + !r.microfacet->diffuseIsConstant : 3;  // at least
     return 2;
 }
 
-/// Texels' bytes before anything is baked: exact for the fit, a lower bound for the others, in the same proportion to
-/// the exact figure for every size of a ladder.
-std::size_t bytesOf(const Candidate& c, const FactorizeOptions& options) {
+/// Texels' bytes before anything is baked: a lower bound, in the same proportion to the exact figure for every size of
+/// a ladder. Short of it by colour in `analytic` and `cosine`, by P and the diffuse texture of a model's `homomorphic`.
+std::size_t bytesOf(const Candidate& c, const FactorizeOptions& options, const Reflectance& r) {
     const std::size_t unit = bytesPerChannel(options.format);
     const std::size_t first = static_cast<std::size_t>(c.sizes.first.x) * c.sizes.first.y;
     const std::size_t second = static_cast<std::size_t>(c.sizes.second.x) * c.sizes.second.y;
@@ -124,17 +138,10 @@ std::size_t bytesOf(const Candidate& c, const FactorizeOptions& options) {
     if (c.method == "analytic" || c.method == "cosine") return unit * (first + second);
     const bool symmetric =
         options.parametrization.empty() ? options.method == "auto" : options.parametrization == "symmetric";
-    if (c.method == "svd") return unit * first * (options.terms == 1 ? 1 : 2) * (symmetric ? 4 : 6);
-    return unit * first;
-}
-
-/// An explicit number of terms decides the layout of the fit: false for sizes of the others.
-bool withTerms(Candidate& c, const FactorizeOptions& options) {
-    if (c.method != "fit" || options.terms == 0) return true;
-    const HalfDiffLayout wanted = ofSize(c.method, options).layout;
-    if ((c.layout == HalfDiffLayout::Compact) != (wanted == HalfDiffLayout::Compact)) return false;
-    c.layout = wanted;
-    return true;
+    if (c.method == "svd") return unit * first * (c.terms == 1 ? 1 : 2) * (symmetric ? 4 : 6);
+    if (c.method == "single-lobe") return unit * static_cast<std::size_t>(c.sizes.first.x) * 2 * 3;
+    if (c.method == "tangent") return unit * first * 3;
+    return r.microfacet ? unit * first : unit * 3 * (first + second);
 }
 
 /// √(0.3 E_log² + E_L2²) below 80°, the loss of the fits.
@@ -162,28 +169,67 @@ FactoredBrdf nearest(std::vector<FactoredBrdf> baked, const Reflectance& r, cons
     return std::move(baked[best]);
 }
 
-FactoredBrdf withinBudget(const Reflectance& r, const std::vector<std::string>& methods,
-                          const FactorizeOptions& options) {
+void addLadder(std::vector<BudgetCandidate>& candidates, const Reflectance& r, const Candidate& kind,
+               const FactorizeOptions& options) {
+    const std::size_t usualBytes = bytesOf(kind, options, r);
+    for (const TextureSizes& sizes : ladder(kind)) {
+        Candidate c = kind;
+        c.sizes = sizes;
+        const std::size_t bytes = bytesOf(c, options, r);
+        candidates.push_back({fmt::format("{} {} {}", c.method, static_cast<int>(c.layout), c.terms), bytes,
+                              fetchesOf(c, r), bytes <= usualBytes, [&r, &options, c] { return bake(r, c, options); }});
+    }
+}
+
+FactoredBrdf withinBudget(const Reflectance& r, const std::vector<Candidate>& kinds, const FactorizeOptions& options) {
     std::vector<BudgetCandidate> candidates;
-    for (const std::string& method : methods)
-        for (Candidate c : ladder(method))
-            if (withTerms(c, options))
-                candidates.push_back({fmt::format("{} {}", c.method, static_cast<int>(c.layout)), bytesOf(c, options),
-                                      fetchesOf(c, options, r), [&r, &options, c] { return bake(r, c, options); }});
+    for (const Candidate& kind : kinds) addLadder(candidates, r, kind, options);
     return searchBudget(r.source, std::move(candidates), options);
 }
 
-/// Each method's largest within bytes and fetches, and the nearest of those.
+std::vector<Candidate> variantsOfAll(const std::vector<std::string>& methods, const Reflectance& r,
+                                     const FactorizeOptions& options) {
+    std::vector<Candidate> out;
+    for (const std::string& method : methods)
+        for (const Candidate& kind : variants(method, r, options)) out.push_back(kind);
+    return out;
+}
+
+/// Nothing when `kind` has too many fetches, or no size within the bytes. Without a bound on bytes its usual size.
+std::optional<FactoredBrdf> largestWithinBudget(const Reflectance& r, const Candidate& kind,
+                                                const FactorizeOptions& options) {
+    if (options.maxFetches && fetchesOf(kind, r) > *options.maxFetches) return {};
+    if (!options.maxBytes) {
+        FactoredBrdf baked = bake(r, kind, options);
+        if (options.maxFetches && baked.fetches > *options.maxFetches) return {};
+        return baked;
+    }
+    try {
+        return withinBudget(r, {kind}, options);
+    } catch (const Error&) {  // another may be small enough
+        return {};
+    }
+}
+
+/// Bytes and fetches alone: of the first method that has anything within them (of all when `together`) each variant's
+/// largest, and the nearest of those. A table that outgrows the fit's samples is no nearer, hence the usual size too.
 FactoredBrdf nearestWithinBudget(const Reflectance& r, const std::vector<std::string>& methods,
-                                 const FactorizeOptions& options) {
+                                 const FactorizeOptions& options, bool together) {
     std::vector<FactoredBrdf> baked;
     for (const std::string& method : methods) {
-        try {
-            baked.push_back(withinBudget(r, {method}, options));
-        } catch (const Error&) {  // another method may be small enough
+        const std::vector<Candidate> kinds = variants(method, r, options);
+        for (auto kind = kinds.rbegin(); kind != kinds.rend(); ++kind) {  // fewer fetches first, as nearest() asks
+            if (!options.maxBytes && kind != kinds.rend() - 1 && fetchesOf(kinds.front(), r) <= *options.maxFetches)
+                continue;  // as without a budget
+            std::optional<FactoredBrdf> largest = largestWithinBudget(r, *kind, options);
+            if (!largest) continue;
+            const bool overgrown = method == "svd" && largest->bytes() > bytesOf(*kind, options, r);
+            if (overgrown) baked.push_back(bake(r, *kind, options));
+            baked.push_back(std::move(*largest));
         }
+        if (!baked.empty() && !together) break;
     }
-    if (baked.empty()) return withinBudget(r, methods, options);  // says how near all of them came
+    if (baked.empty()) return withinBudget(r, variantsOfAll(methods, r, options), options);  // says how near it came
     return nearest(std::move(baked), r, options);
 }
 
@@ -263,17 +309,15 @@ FactoredBrdf factorize(const Reflectance& r, const FactorizeOptions& options) {
     // The methods before others are the better ones, but for svd, which auto only names where neither is known to be.
     const bool together = methods.back() == "svd";
     if (options.size == 0) {
-        if (options.maxError) return withinBudget(r, methods, options);
-        if (options.maxBytes || options.maxFetches)
-            return together ? nearestWithinBudget(r, methods, options) : withinBudget(r, methods, options);
+        if (options.maxError) return withinBudget(r, variantsOfAll(methods, r, options), options);
+        if (options.maxBytes || options.maxFetches) return nearestWithinBudget(r, methods, options, together);
     }
     std::vector<FactoredBrdf> baked;
     for (const std::string& method : methods) {
-        Candidate c = options.size != 0 ? ofSize(method, options) : usual(method, r);
-        if (options.terms != 0) c.layout = ofSize(method, options).layout;
-        if (options.maxBytes && bytesOf(c, options) > *options.maxBytes)
+        const Candidate c = options.size != 0 ? ofSize(method, options) : withTerms(usual(method, r), options);
+        if (options.maxBytes && bytesOf(c, options, r) > *options.maxBytes)
             throw Error(fmt::format("{}: expected at most {} bytes, found {} or more for size {}", r.source,
-                                    *options.maxBytes, bytesOf(c, options), options.size));
+                                    *options.maxBytes, bytesOf(c, options, r), options.size));
         baked.push_back(bake(r, c, options));
         if (!together) break;
     }

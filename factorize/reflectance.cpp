@@ -65,11 +65,25 @@ static Reflectance openFile(const std::string& source) {
                     source));
 }
 
+/// `micro` and `ridges` lack a part of `micro:ridges`.
+static void requireNoBareRelief(const std::string& source) {
+    const std::string name = source.substr(0, source.find_first_of(":,"));
+    std::string known;
+    bool isPart = kMicroPrefix == name + ":";
+    for (const ModelInfo& relief : listMicro()) {
+        known += (known.empty() ? "" : ", ") + relief.name;
+        isPart = isPart || relief.name == kMicroPrefix + name;
+    }
+    require(!isPart, fmt::format("unknown model '{}'; micro-geometries: {}", name, known));
+}
+
 Reflectance openReflectance(const std::string& source) {
     if (source.rfind(kMicroPrefix, 0) == 0) return openMicro(source);
     std::error_code unreadable;
     const bool isFile = kindBySuffix(source) || looksLikePath(source) || fs::is_regular_file(source, unreadable);
-    return isFile ? openFile(source) : makeModel(source);
+    if (isFile) return openFile(source);
+    requireNoBareRelief(source);
+    return makeModel(source);
 }
 
 }  // namespace nacre

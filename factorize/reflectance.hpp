@@ -48,6 +48,11 @@ struct TangentPieces {
 /// What a reader of measured data found and did. Nothing is repaired silently.
 struct DataReport {
     std::uint64_t entries = 0, missing = 0, negative = 0, nonFinite = 0;
+    std::uint64_t distinct = 0;  ///< scattered samples alone: pairs of directions, those of one place counted once
+    /// Scattered samples alone: √(Σ w |f̂−f|² / Σ w f²) of samples predicted without those at and about them, w = cosθi
+    /// cosθo, pairs below 80° where there are any. What the errors of a bake can't say: how near the gridding is to the
+    /// surface. NaN when nothing could be left out.
+    double holdoutL2Rel = std::numeric_limits<double>::quiet_NaN();
     std::string rule;  ///< one sentence: how those entries are handled
 };
 

@@ -3,8 +3,12 @@
 // the bilinear filter starts.
 #include <fmt/format.h>
 
+#include <numeric>
+
 #include "core/directions.hpp"
 #include "core/error.hpp"
+#include "core/parallel.hpp"
+#include "core/sampling.hpp"
 #include "factorize/fit_samples.hpp"
 #include "factorize/mappings.hpp"
 #include "factorize/methods.hpp"
@@ -140,13 +144,19 @@ void fitAtEdge(Fitted& at, const Reflectance& r, int edge, int steps, std::size_
                            {.newtonSteps = steps, .conjugateSteps = 25, .smoothness = smoothness, .threads = threads});
 }
 
+using Storages = std::vector<SeparableStorage>;
+
+Storages storagesOf(const Layout& layout) {
+    Storages out{layout.terms == 1 && layout.arguments != SeparableArguments::Symmetric ? SeparableStorage::Factors
+                                                                                        : SeparableStorage::Logarithm};
+    if (!overHalfVector(layout)) out.push_back(SeparableStorage::Values);  // there lobes need logarithms
+    return out;
+}
+
 /// Values or logarithms: what a coarse fit says.
-Fitted chooseDomain(const Reflectance& r, Layout layout, int size, const FactorizeOptions& options) {
+Fitted chooseDomain(const Reflectance& r, Layout layout, const Storages& storages, int size,
+                    const FactorizeOptions& options) {
     Fitted best;
-    std::vector<SeparableStorage> storages{layout.terms == 1 && layout.arguments != SeparableArguments::Symmetric
-                                               ? SeparableStorage::Factors
-                                               : SeparableStorage::Logarithm};
-    if (!overHalfVector(layout)) storages.push_back(SeparableStorage::Values);  // there lobes need logarithms
     for (const SeparableStorage storage : storages) {
         layout.storage = storage;
         Fitted tried{layout, makeModel(layout, startTables(r, layout, kStartEdge, options.threads))};
@@ -154,6 +164,126 @@ Fitted chooseDomain(const Reflectance& r, Layout layout, int size, const Factori
         if (tried.loss < best.loss) best = std::move(tried);
         report(options.progress, "decomposing", 0.2);
     }
+    return best;
+}
+
+Fitted fitLayout(const Reflectance& r, const Layout& layout, const Storages& storages, int size,
+                 const FactorizeOptions& options) {
+    Fitted fitted = chooseDomain(r, layout, storages, size, options);
+    const auto samplesFor = [](int edge) { return std::clamp<std::size_t>(80ull * edge * edge, 30000, 300000); };
+    if (size > 2 * kStartEdge) fitAtEdge(fitted, r, size / 2, 6, samplesFor(size / 2), options.threads);
+    report(options.progress, "fitting full size", 0.5);
+    fitAtEdge(fitted, r, size, 8, samplesFor(size), options.threads);
+    report(options.progress, "fitted", 1);
+    return fitted;
+}
+
+FactoredBrdf assemble(const Fitted& fitted, TexelFormat format) {
+    const Layout& layout = fitted.layout;
+    FactoredBrdf out;
+    out.form = FactoredForm::Separable;
+    out.method = "svd";
+    out.params[0] = {layout.terms, static_cast<int>(layout.arguments), static_cast<int>(layout.storage),
+                     layout.quadrant};
+    out.params[1] = glm::vec4(glm::vec2(1.0 / layout.width), 0, 0);
+    const std::vector<FitTable>& tables = fitted.model.tables;
+    for (std::size_t i = 0; i < tables.size(); ++i) {
+        const bool shared = layout.arguments == SeparableArguments::Symmetric;
+        const std::string name = shared ? fmt::format("a{}", i) : fmt::format("{}{}", i % 2 ? "v" : "u", i / 2);
+        const char* mapping = overHalfVector(layout) && i % 2 == 0 ? "scaled_slope" : "lambert_disk";
+        out.textures.push_back(makeScaledTexture(name, mapping, tables[i].image(), format));
+        if (shared)
+            for (std::size_t c = 0; c < 4; ++c) out.params[2 + 4 * i + c] = glm::vec4(tables[i].color[c], 0);
+    }
+    out.fetches = 2 * layout.terms;
+    return out;
+}
+
+/// One term in the textures of two, to the same value: the second product is 0, or ln u · 1 + 1 · ln v.
+Fitted asTwoTerms(Fitted one) {
+    std::vector<FitTable>& tables = one.model.tables;
+    FitTable constant = tables[0];
+    const bool factors = one.layout.storage == SeparableStorage::Factors;
+    std::fill(constant.texels.begin(), constant.texels.end(), factors ? 1.0f : 0.0f);
+    if (one.layout.arguments == SeparableArguments::Symmetric)
+        tables = {tables[0], constant};
+    else if (factors)
+        tables = {tables[0], constant, constant, tables[1]};
+    else
+        tables = {tables[0], tables[1], constant, constant};
+    if (factors) one.layout.storage = SeparableStorage::Logarithm;
+    one.layout.terms = 2;
+    return one;
+}
+
+/// What fresh pairs say, drawn in proportion to the measure: the fit's own say nothing of the pairs of texels between
+/// them, of whose products an exponent can be anything.
+struct Check {
+    double l2Rel = 0;
+    double bestScale = 1;  ///< factor on f̂ for which l2Rel is least
+};
+
+Check check(const FactoredBrdf& brdf, const Reflectance& r, unsigned threads) {
+    constexpr std::size_t kPairs = 200000, kChunks = 64;
+    std::array<double, kChunks> both{}, square{}, truth{};
+    parallelFor(kChunks, threads, [&](std::size_t chunk) {
+        for (std::size_t i = 1 + chunk; i < kPairs; i += kChunks) {
+            const Vec3 wi = cosineHemisphere({radicalInverse(i, 2), radicalInverse(i, 3)});
+            const Vec3 wo = cosineHemisphere({radicalInverse(i, 5), radicalInverse(i, 7)});
+            if (std::min(wi.z, wo.z) < kLowest) continue;
+            const Rgb f = r.f(wi, wo), g = evaluate(brdf, wi, wo);
+            both[chunk] += glm::dot(f, g), square[chunk] += glm::dot(g, g), truth[chunk] += glm::dot(f, f);
+        }
+    });
+    const auto total = [](const auto& parts) { return std::accumulate(parts.begin(), parts.end(), 0.0); };
+    const double fg = total(both), gg = total(square), ff = total(truth);
+    if (!(ff > 0)) return {};
+    return {std::sqrt(std::max(0.0, (ff - 2 * fg + gg) / ff)), fg > 0 && std::isfinite(gg) ? fg / gg : 0};
+}
+
+/// f̂ times `scale`; an exponent of several products has no factor, and becomes black whatever the scale.
+void scaleBy(Fitted& fitted, double scale) {
+    std::vector<FitTable>& tables = fitted.model.tables;
+    const bool symmetric = fitted.layout.arguments == SeparableArguments::Symmetric;
+    if (fitted.layout.storage == SeparableStorage::Factors) {
+        for (float& t : tables[0].texels) t += static_cast<float>(std::log(std::max(scale, 1e-30)));
+    } else if (fitted.layout.storage == SeparableStorage::Values) {
+        for (std::size_t i = 0; i < tables.size(); i += symmetric ? 1 : 2)
+            if (symmetric)
+                for (glm::vec3& color : tables[i].color) color *= static_cast<float>(scale);
+            else
+                for (float& t : tables[i].texels) t *= static_cast<float>(scale);
+    } else {
+        fitted.layout.storage = SeparableStorage::Values;
+        for (FitTable& table : tables) std::fill(table.texels.begin(), table.texels.end(), 0.0f);
+    }
+}
+
+/// The nearest of the fits that may be it, by `check`: two terms are never worse than one, and none worse than black.
+FactoredBrdf nearestFit(const Reflectance& r, const Layout& layout, int size, const FactorizeOptions& options) {
+    constexpr double kGood = 0.02, kPoor = 0.5;
+    FactoredBrdf best;
+    double bestError = std::numeric_limits<double>::infinity();
+    const auto consider = [&](Fitted fitted) {
+        const bool embed = fitted.layout.terms < layout.terms;
+        const auto finished = [&] { return assemble(embed ? asTwoTerms(fitted) : fitted, options.format); };
+        FactoredBrdf brdf = finished();
+        Check found = check(brdf, r, options.threads);
+        if (!(found.l2Rel < 1)) {
+            scaleBy(fitted, found.bestScale);
+            brdf = finished();
+            found = check(brdf, r, options.threads);
+        }
+        if (!(found.l2Rel < bestError)) return;
+        best = std::move(brdf);
+        bestError = found.l2Rel;
+    };
+    consider(fitLayout(r, layout, storagesOf(layout), size, options));
+    Layout one = layout;
+    one.terms = 1;
+    if (layout.terms == 2 && bestError > kGood) consider(fitLayout(r, one, storagesOf(one), size, options));
+    if (!overHalfVector(layout) && bestError > kPoor)
+        consider(fitLayout(r, layout, {SeparableStorage::Values}, size, options));
     return best;
 }
 
@@ -168,32 +298,7 @@ FactoredBrdf factorizeSeparable(const Reflectance& r, const TextureSizes& sizes,
     layout.quadrant = overHalfVector(layout) && isQuadrantSymmetric(r.f);
     layout.width = r.microfacet ? glm::clamp(glm::dvec2(r.microfacet->alphaX, r.microfacet->alphaY), 1e-3, 1.0)
                                 : glm::dvec2(std::clamp(lobeHalfWidth(r.f), 0.02, 0.7));
-    const int size = sizes.first.x;
-    Fitted fitted = chooseDomain(r, layout, size, options);
-    layout = fitted.layout;
-    const auto samplesFor = [](int edge) { return std::clamp<std::size_t>(80ull * edge * edge, 30000, 300000); };
-    if (size > 2 * kStartEdge) fitAtEdge(fitted, r, size / 2, 6, samplesFor(size / 2), options.threads);
-    report(options.progress, "fitting full size", 0.5);
-    fitAtEdge(fitted, r, size, 8, samplesFor(size), options.threads);
-    report(options.progress, "fitted", 1);
-
-    FactoredBrdf out;
-    out.form = FactoredForm::Separable;
-    out.method = "svd";
-    out.params[0] = {layout.terms, static_cast<int>(layout.arguments), static_cast<int>(layout.storage),
-                     layout.quadrant};
-    out.params[1] = glm::vec4(glm::vec2(1.0 / layout.width), 0, 0);
-    const std::vector<FitTable>& tables = fitted.model.tables;
-    for (std::size_t i = 0; i < tables.size(); ++i) {
-        const bool shared = layout.arguments == SeparableArguments::Symmetric;
-        const std::string name = shared ? fmt::format("a{}", i) : fmt::format("{}{}", i % 2 ? "v" : "u", i / 2);
-        const char* mapping = overHalfVector(layout) && i % 2 == 0 ? "scaled_slope" : "lambert_disk";
-        out.textures.push_back(makeScaledTexture(name, mapping, tables[i].image(), options.format));
-        if (shared)
-            for (std::size_t c = 0; c < 4; ++c) out.params[2 + 4 * i + c] = glm::vec4(tables[i].color[c], 0);
-    }
-    out.fetches = 2 * layout.terms;
-    return out;
+    return nearestFit(r, layout, sizes.first.x, options);
 }
 
 }  // namespace nacre

@@ -18,6 +18,8 @@ namespace {
 
 constexpr double kLogFloor = 1e-3;       // ε of E_log [1/sr]
 constexpr double kRelativeFloor = 1e-2;  // of max_rel [1/sr]
+constexpr double kNoLight = 1e-12;       // root mean square of a truth that is 0 but for rounding [1/sr]
+constexpr double kBlack = 1e-6;          // of what may stand for it [1/sr]: a thousandth of ε, which no picture shows
 constexpr std::size_t kChunk = 2048;     // pairs a task: fixes the order of all sums
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 const double kCosBody = std::cos(80 * kPi / 180), kCosGrazing = std::cos(89 * kPi / 180);
@@ -25,7 +27,8 @@ const double kCosBody = std::cos(80 * kPi / 180), kCosGrazing = std::cos(89 * kP
 using Region = TruthSample::Region;
 
 struct ErrorSums {
-    double body = 0, bodyTruth = 0, grazing = 0, grazingTruth = 0, logSquare = 0, weight = 0, maxRel = 0;
+    double body = 0, bodyTruth = 0, grazing = 0, grazingTruth = 0, logSquare = 0, weight = 0, grazingWeight = 0,
+           maxRel = 0;
     std::uint64_t samples = 0, negative = 0, nonFinite = 0;
 };
 
@@ -60,6 +63,7 @@ void accumulate(ErrorSums& sums, const TruthSample& s, const Rgb& approximate) {
     } else if (s.region == Region::Grazing) {
         sums.grazing += error;
         sums.grazingTruth += s.weight * square(s.f);
+        sums.grazingWeight += s.weight;
     } else if (!finite) {
         sums.grazing = kInfinity;
     }
@@ -67,12 +71,17 @@ void accumulate(ErrorSums& sums, const TruthSample& s, const Rgb& approximate) {
 
 ErrorSums& operator+=(ErrorSums& a, const ErrorSums& b) {
     a.body += b.body, a.bodyTruth += b.bodyTruth, a.grazing += b.grazing, a.grazingTruth += b.grazingTruth;
-    a.logSquare += b.logSquare, a.weight += b.weight, a.maxRel = std::max(a.maxRel, b.maxRel);
+    a.logSquare += b.logSquare, a.weight += b.weight, a.grazingWeight += b.grazingWeight,
+        a.maxRel = std::max(a.maxRel, b.maxRel);
     a.samples += b.samples, a.negative += b.negative, a.nonFinite += b.nonFinite;
     return a;
 }
 
-double relativeL2(double error, double truth) { return error == 0 ? 0 : std::sqrt(error / truth); }
+/// Both sums over channels and samples of this weight. A truth without light has no scale: 0 for what is as black.
+double relativeL2(double error, double truth, double weight) {
+    if (truth <= 3 * weight * sqr(kNoLight)) return error <= 3 * weight * sqr(kBlack) ? 0 : kInfinity;
+    return std::sqrt(error / truth);
+}
 
 ErrorSums sumErrors(const BrdfFunction& approximate, const std::vector<TruthSample>& truth, unsigned threads) {
     std::vector<ErrorSums> parts((truth.size() + kChunk - 1) / kChunk);
@@ -121,7 +130,7 @@ std::vector<TruthSample> sampleTruth(const BrdfFunction& truth, const BrdfMetric
 
 double l2Rel(const BrdfFunction& approximate, const std::vector<TruthSample>& truth, unsigned threads) {
     const ErrorSums sums = sumErrors(approximate, truth, threads);
-    return relativeL2(sums.body, sums.bodyTruth);
+    return relativeL2(sums.body, sums.bodyTruth, sums.weight);
 }
 
 double l2Rel(const BrdfFunction& approximate, const BrdfFunction& truth, const BrdfMetricOptions& options) {
@@ -131,10 +140,10 @@ double l2Rel(const BrdfFunction& approximate, const BrdfFunction& truth, const B
 BrdfError measureBrdf(const BrdfFunction& approximate, const BrdfFunction& truth, const BrdfMetricOptions& options) {
     const ErrorSums sums = sumErrors(approximate, sampleTruth(truth, options), options.threads);
     BrdfError error;
-    error.l2Rel = relativeL2(sums.body, sums.bodyTruth);
+    error.l2Rel = relativeL2(sums.body, sums.bodyTruth, sums.weight);
     error.logRms = sums.logSquare == 0 ? 0 : std::sqrt(sums.logSquare / (3 * sums.weight));
     error.maxRel = sums.maxRel;
-    error.grazingL2Rel = relativeL2(sums.grazing, sums.grazingTruth);
+    error.grazingL2Rel = relativeL2(sums.grazing, sums.grazingTruth, sums.grazingWeight);
     error.spherePsnr = spherePsnr(approximate, truth, options.threads);
     error.albedoMaxAbs = albedoMaxAbs(approximate, truth, options.isotropic ? 1 : 4, options.threads);
     if (options.truthEnergy > 0)

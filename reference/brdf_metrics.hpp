@@ -24,7 +24,8 @@ struct BrdfMetricOptions {
 inline constexpr std::uint64_t kSearchSamples = 40000;
 
 struct BrdfError {
-    /// E_L2 = √(∫(f̂−f)² dμ / ∫f² dμ) over θi, θo ≤ 80°. 0 for two black BRDFs, infinite for a black truth alone.
+    /// E_L2 = √(∫(f̂−f)² dμ / ∫f² dμ) over θi, θo ≤ 80°. For a black truth 0 when f̂ too is black, to 1e-6 1/sr in the
+    /// root mean square, and infinite when it isn't.
     double l2Rel = 0;
     /// E_log = √(∫ln²((max(f̂,0)+ε)/(f+ε)) dμ / (3 ∫dμ)) over θi, θo ≤ 80°, ε = 1e-3 1/sr.
     double logRms = 0;

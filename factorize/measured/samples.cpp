@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 
 #include <Eigen/Dense>
+#include <array>
+#include <map>
 #include <memory>
 
 #include "core/error.hpp"
@@ -19,7 +21,10 @@ namespace {
 struct PlacedSample {
     Vec3 at;  ///< grid coordinates
     Rgb log;
+    std::size_t group = 0;  ///< left out together
 };
+constexpr std::size_t kNoGroup = ~std::size_t{0};
+constexpr std::size_t kFolds = 5, kFewPlaces = 100, kMostPredicted = 2000;
 struct Near {
     double distance2;
     std::size_t sample;
@@ -35,11 +40,13 @@ static Vec3 gridCoordinates(const Vec3& wi, const Vec3& wo) {
     return {std::sqrt(angles.thetaH * 2 / kPi), angles.thetaD * 2 / kPi, std::max(0.0, folded) * 2 / kPi};
 }
 
-/// The nearest samples, the farthest of them last. Differences in φd count by x y of the vertex.
-static std::vector<Near> nearest(const std::vector<PlacedSample>& samples, const Vec3& at) {
+/// The nearest samples outside group `without`, the farthest of them last. Differences in φd count by x y of the
+/// vertex.
+static std::vector<Near> nearest(const std::vector<PlacedSample>& samples, const Vec3& at, std::size_t without) {
     const Vec3 scale(1, 1, at.x * at.y);
     std::vector<Near> heap;  // largest on top
     for (std::size_t i = 0; i < samples.size(); ++i) {
+        if (samples[i].group == without) continue;
         const Vec3 d = (samples[i].at - at) * scale;
         const Near candidate{dot(d, d), i};
         if (heap.size() == kNeighbours) {
@@ -55,8 +62,8 @@ static std::vector<Near> nearest(const std::vector<PlacedSample>& samples, const
 }
 
 /// Weighted least squares of log ≈ c0 + c · offset; the answer is c0.
-static Rgb regress(const std::vector<PlacedSample>& samples, const Vec3& at) {
-    const std::vector<Near> near = nearest(samples, at);
+static Rgb regress(const std::vector<PlacedSample>& samples, const Vec3& at, std::size_t without = kNoGroup) {
+    const std::vector<Near> near = nearest(samples, at, without);
     // A little beyond the farthest, so that a single sample or many at one place keep a weight.
     const double radius = 1.001 * std::sqrt(near.back().distance2) + 1e-6;
     Eigen::Matrix4d normal = Eigen::Matrix4d::Zero();
@@ -77,11 +84,58 @@ static Rgb regress(const std::vector<PlacedSample>& samples, const Vec3& at) {
     return glm::clamp(Rgb(solution(0, 0), solution(0, 1), solution(0, 2)), low, high);
 }
 
-SampleGrid gridSamples(const std::vector<BrdfSample>& samples, unsigned threads) {
-    require(!samples.empty(), "gridSamples: expected at least one sample");
+static std::vector<PlacedSample> place(const std::vector<BrdfSample>& samples) {
     std::vector<PlacedSample> placed;
     for (const BrdfSample& sample : samples)
         placed.push_back({gridCoordinates(sample.pair.wi, sample.pair.wo), glm::log(sample.f + SampleGrid::kOffset)});
+    return placed;
+}
+
+/// Deals out the places, in order of arrival. \return  how many there are
+static std::size_t dealGroups(std::vector<PlacedSample>& placed) {
+    constexpr double kSamePlace = 1e6;
+    std::map<std::array<long long, 3>, std::size_t> places;
+    for (PlacedSample& p : placed) {
+        const std::array key{std::llround(p.at.x * kSamePlace), std::llround(p.at.y * kSamePlace),
+                             std::llround(p.at.z * kSamePlace)};
+        p.group = places.emplace(key, places.size()).first->second;
+    }
+    if (places.size() >= kFewPlaces)
+        for (PlacedSample& p : placed) p.group %= kFolds;
+    return places.size();
+}
+
+void holdOut(const std::vector<BrdfSample>& samples, DataReport& data, unsigned threads) {
+    std::vector<PlacedSample> placed = place(samples);
+    data.distinct = dealGroups(placed);
+    if (data.distinct < 2) return;
+    const double lowest = std::cos(80 * kPi / 180);
+    const auto isBody = [&](const BrdfSample& s) { return std::min(s.pair.wi.z, s.pair.wo.z) >= lowest; };
+    const bool anyBody = std::any_of(samples.begin(), samples.end(), isBody);
+    std::vector<std::size_t> chosen;
+    const std::size_t stride = samples.size() / kMostPredicted + 1;
+    for (std::size_t i = 0; i < samples.size(); i += stride)
+        if (!anyBody || isBody(samples[i])) chosen.push_back(i);
+    std::vector<double> gaps(chosen.size());
+    parallelFor(chosen.size(), threads, [&](std::size_t k) {
+        const PlacedSample& p = placed[chosen[k]];
+        const Rgb predicted = glm::max(glm::exp(regress(placed, p.at, p.group)) - SampleGrid::kOffset, Rgb(0));
+        const Rgb gap = predicted - samples[chosen[k]].f;
+        gaps[k] = glm::dot(gap, gap);
+    });
+    double gap = 0, total = 0;
+    for (std::size_t k = 0; k < chosen.size(); ++k) {
+        const BrdfSample& s = samples[chosen[k]];
+        const double weight = s.pair.wi.z * s.pair.wo.z;
+        gap += weight * gaps[k];
+        total += weight * glm::dot(s.f, s.f);
+    }
+    data.holdoutL2Rel = total > 0 ? std::sqrt(gap / total) : 0;  // black foretells black
+}
+
+SampleGrid gridSamples(const std::vector<BrdfSample>& samples, unsigned threads) {
+    require(!samples.empty(), "gridSamples: expected at least one sample");
+    const std::vector<PlacedSample> placed = place(samples);
     SampleGrid grid{std::vector<glm::vec3>(static_cast<std::size_t>(SampleGrid::kX * SampleGrid::kY * SampleGrid::kZ))};
     parallelFor(grid.logs.size(), threads, [&](std::size_t i) {
         const int n = static_cast<int>(i), x = n / SampleGrid::kZ / SampleGrid::kY,
@@ -118,6 +172,7 @@ Reflectance openSamples(const std::filesystem::path& path) {
     out.kind = "samples";
     out.hash = contentHash(text);
     out.data = parsed.data;
+    holdOut(parsed.samples, out.data);
     out.data.rule = fmt::format(
         "lines with a negative or non-finite value, or a direction at the horizon, are left out; the {} others are "
         "gridded by locally linear regression of the logarithm over the {} nearest, isotropic and reciprocal",

@@ -95,6 +95,12 @@ std::vector<TensorField> parseTensorFile(std::span<const std::uint8_t> bytes, co
         throw Error(fmt::format("{}: expected at most {} fields, found {}", name, kMaxFields, count));
     std::vector<TensorField> fields;
     for (std::uint32_t i = 0; i < count; ++i) fields.push_back(readField(cursor));
+    std::size_t end = cursor.at;
+    for (const TensorField& field : fields)
+        end = std::max(end, static_cast<std::size_t>(field.bytes.data() - bytes.data()) + field.bytes.size());
+    if (end != bytes.size())
+        throw Error(
+            fmt::format("{}: expected the last field to end the file at {} bytes, found {}", name, end, bytes.size()));
     return fields;
 }
 

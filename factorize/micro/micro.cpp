@@ -64,9 +64,10 @@ static Relief findRelief(const std::string& name) {
     std::vector<std::string> names;
     for (const Relief& relief : reliefs()) {
         if (relief.name == name) return relief;
-        names.push_back(relief.name);
+        names.push_back(kMicroPrefix + relief.name);
     }
-    throw std::invalid_argument(fmt::format("unknown micro-geometry '{}'; known: {}", name, fmt::join(names, ", ")));
+    throw std::invalid_argument(
+        fmt::format("unknown micro-geometry '{}{}'; known: {}", kMicroPrefix, name, fmt::join(names, ", ")));
 }
 
 static int wholeNumber(const std::string& model, const ParameterValues& values, const std::string& name) {
@@ -78,7 +79,7 @@ static int wholeNumber(const std::string& model, const ParameterValues& values, 
 Reflectance openMicro(const std::string& text, unsigned threads) {
     const std::size_t start = std::string(kMicroPrefix).size();
     require(text.rfind(kMicroPrefix, 0) == 0, "openMicro: expected a text that starts with micro:");
-    const std::size_t comma = std::min(text.find(',', start), text.size());
+    const std::size_t comma = std::min(text.find_first_of(",:", start), text.size());  // models have a colon there
     const Relief relief = findRelief(text.substr(start, comma - start));
     const std::string model = kMicroPrefix + relief.name;
     const std::string given = comma < text.size() ? text.substr(comma + 1) : std::string();

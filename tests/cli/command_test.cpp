@@ -80,6 +80,19 @@ TEST(CommandUsage, UnknownModelAndParameterListTheKnown) {
     EXPECT_EQ(scratch.fileCount(), 0u);
 }
 
+TEST(CommandUsage, MicroGeometriesTakeAColonAndAreNamedInFull) {
+    const Scratch scratch;
+    const std::string out = (scratch / "a.exr").string();
+    const auto source = [&](const char* text) {
+        return json::parse(
+                   nacre({"factorize", text, "-o", out, "--size", "8", "--method", "homomorphic", "--json"}).out)
+            .value("source", "none");
+    };
+    EXPECT_EQ(source("micro:ridges:slope=2,resolution=4"), source("micro:ridges,slope=2,resolution=4"));
+    for (const char* bare : {"micro", "ridges", "ridges:slope=2", "micro:no-such"})
+        expectFailure(nacre({"factorize", bare, "-o", out}), 2, {"unknown", "micro:ridges", "micro:gaussian-bumps"});
+}
+
 TEST(CommandModels, ListsNamesRangesAndDefaults) {
     EXPECT_THAT(nacre({"models"}).out, AllOf(HasSubstr("torrance-sparrow"), HasSubstr("alpha"), HasSubstr("default")));
     const json list = json::parse(nacre({"models", "--json"}).out);
@@ -152,11 +165,31 @@ TEST(CommandFactorize, BudgetThatCannotBeMetFails) {
     expectFailure(nacre(bake(scratch / "a.exr", {"--size", "64", "--max-bytes", "100"})), 1, {"at most 100 bytes"});
     expectFailure(nacre(bake(scratch / "a.exr", {"--size", "8", "--max-error", "1e-9"})), 1, {"l2_rel <= 1e-09"});
     expectFailure(nacre(bake(scratch / "a.exr", {"--max-bytes", "1", "--max-error", "1e-9"})), 1,
-                  {"the smallest takes at least"});
+                  {"the smallest takes"});
     expectFailure(nacre(bake(scratch / "a.exr", {"--max-bytes", "9000", "--max-error", "1e-9"})), 1,
                   {"nearest tried: ", "with error"});
     expectFailure(nacre(bake(scratch / "a.exr", {"--max-fetches", "0"})), 2, {"--max-fetches", "1 to 64"});
     EXPECT_EQ(scratch.fileCount(), 0u);
+}
+
+TEST(CommandFactorize, BlackMeetsAnyBudget) {
+    const Scratch scratch;
+    const Outcome outcome = nacre({"factorize", "torrance-sparrow:ks=0", "-o", (scratch / "a.exr").string(),
+                                   "--max-error", "1e-6", "--max-bytes", "1000"});
+    EXPECT_EQ(outcome.code, 0) << outcome.err;
+    EXPECT_THAT(outcome.out, AllOf(HasSubstr("l2_rel 0 "), Not(HasSubstr("nan"))));
+    EXPECT_THAT(outcome.err, IsEmpty());
+}
+
+TEST(CommandFactorize, FewSamplesAreSaid) {
+    const Scratch scratch;
+    std::ofstream(scratch / "few.csv") << "theta_i_deg,phi_i_deg,theta_o_deg,phi_o_deg,r,g,b\n"
+                                          "10,0,10,180,1,1,1\n50,0,20,90,0.1,0.1,0.1\n70,0,30,20,0.3,0.3,0.3\n";
+    const Outcome outcome = nacre(
+        {"factorize", (scratch / "few.csv").string(), "-o", (scratch / "a.exr").string(), "--size", "16", "--json"});
+    EXPECT_EQ(outcome.code, 0) << outcome.err;
+    EXPECT_THAT(outcome.err, AllOf(HasSubstr("3 distinct samples; samples left out are missed by"), HasSubstr(" %")));
+    EXPECT_GT(json::parse(outcome.out)["data"]["holdout_l2_rel"].get<double>(), 0.1);
 }
 
 TEST(CommandFactorize, MissingAndBrokenSources) {
@@ -241,6 +274,24 @@ TEST(CommandOutput, KilledMidwayLeavesNoFinalFile) {
             EXPECT_EQ(nacre({"info", (scratch / "a.exr").string()}).code, 0) << "what has the final name is complete";
             break;
         }
+    }
+}
+
+TEST(CommandOutput, CatchableSignalsLeaveNoFile) {
+    for (const int signal : {SIGTERM, SIGINT, SIGHUP}) {
+        const Scratch scratch, io;
+        int code = 0;
+        for (int tried = 0; tried < 40 && code != 128 + signal; ++tried) {
+            const pid_t child = start(bake(scratch / "a.exr"), {}, io);
+            for (int i = 0; i < 20000 && scratch.fileCount() == 0; ++i)  // until a provisional file is there
+                std::this_thread::sleep_for(std::chrono::microseconds(100));
+            ::kill(child, signal);
+            code = waitFor(child);
+            std::error_code none;
+            std::filesystem::remove(scratch / "a.exr", none);
+            EXPECT_EQ(scratch.fileCount(), 0u) << "after signal " << signal;
+        }
+        EXPECT_EQ(code, 128 + signal) << "ended as the signal does";
     }
 }
 
@@ -352,6 +403,15 @@ TEST_F(CommandEval, TruthStandsBesideTheBake) {
         constexpr double kBake = 0.02;  // relative, at the peak of the lobe, whichever method auto picks
         for (int c = 0; c < 3; ++c) EXPECT_NEAR(v[c] / v[c + 3], 1, kBake) << line;
     }
+}
+
+TEST_F(CommandEval, AnotherSourceThanTheBakesIsSaid) {
+    EXPECT_THAT(eval("0,0,1,0,0,1\n", true).err, IsEmpty());
+    Surroundings setup;
+    setup.input = "0,0,1,0,0,1\n";
+    const Outcome outcome = nacre({"eval", (scratch / "a.exr").string(), "--source", "lambert"}, setup);
+    EXPECT_EQ(outcome.code, 0);
+    EXPECT_THAT(outcome.err, AllOf(HasSubstr("baked from blinn-phong:"), HasSubstr("set against lambert:")));
 }
 
 TEST_F(CommandEval, BelowTheHorizonIsBlack) { EXPECT_EQ(eval("0,0,-1,0,0,1\n").out, "0,0,0\n"); }

@@ -52,7 +52,8 @@ Gallery makeGallery() {
 TEST(Page, HoldsEveryNumberOfAnEntry) {
     const std::string html = galleryPage(makeGallery());
     for (const char* text : {"61.2 dB", "0.310 %", "1.50 ms", "4.50 ms", "4.0×", "16.0 KiB", "0.123 %", "2 × 64² half",
-                             "nacre factorize 'a&lt;b&gt;' -o torus.exr --size 64", "0.250 s", "analytic, cosine"})
+                             "nacre factorize 'a&lt;b&gt;' -o torus.exr --size 64", "250 ms",
+                             "speed-up: direct ÷ factored", "analytic, cosine"})
         EXPECT_THAT(html, HasSubstr(text));
     EXPECT_THAT(html, HasSubstr("<span>0</span><span>0.0050</span><span>0.010</span>"));  // the scale's ticks
     EXPECT_THAT(html, HasSubstr(".scale { background: linear-gradient(to right, rgb("));

@@ -213,3 +213,14 @@ TEST(BrdfMetrics, JsonNamesEveryField) {
     EXPECT_EQ(json["negative"], 7);
     EXPECT_TRUE(nlohmann::json::parse(json.dump())["sphere_psnr"].is_null());
 }
+
+TEST(BrdfMetrics, BlackTruthAcceptsBlackAlone) {
+    const auto grey = [](double f) { return [f](const Vec3&, const Vec3&) { return Rgb(f); }; };
+    BrdfMetricOptions options;
+    options.samples = 2000;
+    EXPECT_EQ(l2Rel(grey(0), grey(0), options), 0);
+    EXPECT_EQ(l2Rel(grey(1e-13), grey(0), options), 0) << "what exp(-30) of a table leaves";
+    EXPECT_EQ(l2Rel(grey(1e-3), grey(0), options), std::numeric_limits<double>::infinity());
+    EXPECT_NEAR(l2Rel(grey(1.1e-7), grey(1e-7), options), 0.1, 1e-9) << "dark, but not black";
+    EXPECT_EQ(measureBrdf(grey(1e-13), grey(0), options).grazingL2Rel, 0);
+}

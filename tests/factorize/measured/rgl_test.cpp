@@ -205,6 +205,9 @@ TEST(Rgl, MessagesNameFieldExpectedAndFound) {
     TensorWriter huge;
     huge.add("phi_i", 10, {1ull << 40, 1ull << 40}, std::vector<float>{0});
     EXPECT_THAT(message(huge.bytes()), HasSubstr("found a file of"));
+    std::vector<std::uint8_t> longer = Affine{}.bytes();
+    longer.push_back(0);
+    EXPECT_THAT(message(longer), HasSubstr("expected the last field to end the file at"));
     Affine model;
     model.phiI = {-3, -2, -1};
     EXPECT_THAT(message(model.bytes()), HasSubstr("field 'phi_i': expected a span of 2π, π or π/2, found 2"));

@@ -63,6 +63,34 @@ TEST(Samples, SmoothFunctionIsRecoveredBetweenItsSamples) {
     EXPECT_EQ(r.f({1, 0, 0}, {0, 0, 1}), Rgb(0));
 }
 
+/// A lobe on a diffuse ground at `count` pairs.
+std::vector<BrdfSample> lobeSamples(std::uint64_t count) {
+    std::vector<BrdfSample> out;
+    for (std::uint64_t i = 1; i <= count; ++i) {
+        const Vec3 wi = cosineHemisphere({radicalInverse(i, 2), radicalInverse(i, 3)});
+        const Vec3 wo = cosineHemisphere({radicalInverse(i, 5), radicalInverse(i, 7)});
+        out.push_back({{wi, wo}, Rgb(0.05 + 0.5 * std::pow(glm::normalize(wi + wo).z, 40))});
+    }
+    return out;
+}
+
+TEST(Samples, HoldoutTellsFewSamplesFromMany) {
+    DataReport few, many, one, black;
+    holdOut(lobeSamples(10), few);
+    holdOut(lobeSamples(3000), many);
+    EXPECT_EQ(few.distinct, 10u);
+    EXPECT_GT(few.holdoutL2Rel, 0.2);
+    EXPECT_EQ(many.distinct, 3000u);
+    EXPECT_LT(many.holdoutL2Rel, 0.1);
+    std::vector<BrdfSample> same(50, lobeSamples(1)[0]), dark = lobeSamples(20);
+    holdOut(same, one);
+    EXPECT_EQ(one.distinct, 1u) << "copies foretell nothing";
+    EXPECT_TRUE(std::isnan(one.holdoutL2Rel));
+    for (BrdfSample& s : dark) s.f = Rgb(0);
+    holdOut(dark, black);
+    EXPECT_LT(black.holdoutL2Rel, 1e-9);
+}
+
 TEST(Samples, ConstantBlackAndSingleSamplesAreExact) {
     const auto grid = [](const std::string& lines) {
         return gridSamples(parseSamples("wix,wiy,wiz,wox,woy,woz,r,g,b\n" + lines, "x").samples);

@@ -219,9 +219,9 @@ TEST(Micro, UnknownReliefsAndParametersListTheKnown) {
     const auto complaint = [](const std::string& text) {
         return messageOf<std::invalid_argument>([&] { openMicro(text); });
     };
-    EXPECT_THAT(complaint("micro:waves"), HasSubstr("known: flat, ridges, gaussian-bumps"));
-    EXPECT_THAT(complaint("micro:height.png"), HasSubstr("known: flat, ridges, gaussian-bumps"));
-    EXPECT_THAT(complaint("micro:"), HasSubstr("known: flat, ridges, gaussian-bumps"));
+    EXPECT_THAT(complaint("micro:waves"), HasSubstr("known: micro:flat, micro:ridges, micro:gaussian-bumps"));
+    EXPECT_THAT(complaint("micro:height.png"), HasSubstr("known: micro:flat, micro:ridges, micro:gaussian-bumps"));
+    EXPECT_THAT(complaint("micro:"), HasSubstr("known: micro:flat, micro:ridges, micro:gaussian-bumps"));
     EXPECT_THAT(complaint("micro:ridges,height=1"), HasSubstr("known: slope, peak, left, right, bounces, resolution"));
     EXPECT_THAT(complaint("micro:flat,albedo=2"), HasSubstr("micro:flat: albedo=2 is not in [0, 1]"));
     EXPECT_THAT(complaint("micro:flat,resolution=8.5"), HasSubstr("not a whole number"));
