@@ -50,6 +50,8 @@ std::vector<Option> lobeOptions(LobeSettings& s) {
 
 namespace {
 
+constexpr const char* kMetric = "difference from the sum over the source's texels, root mean square over its mean";
+
 bool refracts(LobeKind kind) { return kind == LobeKind::GgxRefraction || kind == LobeKind::BeckmannRefraction; }
 
 void refuseUnused(const LobeSettings& s, LobeKind kind) {
@@ -71,6 +73,8 @@ void refuseUnused(const LobeSettings& s, LobeKind kind) {
     if (!chained && usesAlpha(kind) && !s.alpha)
         throw UsageError(fmt::format("--alpha: expected with --lobe {}", s.lobe));
     if (anisotropic && !s.alphaY) throw UsageError(fmt::format("--alpha-y: expected with --lobe {}", s.lobe));
+    refuse(s.maxError.has_value(), kind != LobeKind::Mirror, "--max-error");
+    refuse(s.verify, kind != LobeKind::Mirror, "--verify");
     if (refracts(kind) && !s.ior) throw UsageError(fmt::format("--ior: expected with --lobe {}", s.lobe));
 }
 
@@ -114,6 +118,7 @@ json levelJson(const Lobe& lobe, const EnvMap& map, const PrefilterStep& step) {
         out["axis"] = {lobe.axis.x, lobe.axis.y, lobe.axis.z};
     }
     if (step.order >= 0) out["harmonics_order"] = step.order;
+    if (step.cut) out["harmonics_cut"] = true;
     if (step.directRadius > 0) out["direct_radius"] = step.directRadius;
     return out;
 }
@@ -125,7 +130,7 @@ LobeBake bakeSize(const LobeSettings& s, const LobeChain& plan, const EnvMap& so
     PrefilterOptions own = options;
     if (s.tolerance) own.tolerance = *s.tolerance;
     Prefiltered baked = prefilter(source, levels, own);
-    LobeBake out{{}, json::array()};
+    LobeBake out{{}, json::array(), nullptr};
     for (std::size_t m = 0; m < levels.size(); ++m)
         out.levels.push_back(levelJson(plan.lobes[m], baked.levels[m], baked.steps[m]));
     out.chain.levels = std::move(baked.levels);
@@ -146,7 +151,7 @@ double worstThroughFilter(const LobeChain& plan, const LobeBake& bake, const Env
                           unsigned threads) {
     double worst = 0;
     for (std::size_t m = 0; m < plan.lobes.size(); ++m)
-        if (plan.lobes[m].kind != LobeKind::Mirror)
+        if (!isMirror(plan.lobes[m]))
             worst = std::max(
                 worst,
                 measureEnvironment(bake.chain.levels[m], truth, plan.lobes[m], samples, 1, threads).filteredRmse);
@@ -154,6 +159,24 @@ double worstThroughFilter(const LobeChain& plan, const LobeBake& bake, const Env
 }
 
 }  // namespace
+
+std::string anyLobeOption(const LobeSettings& s) {
+    const std::pair<bool, const char*> options[] = {{!s.lobe.empty(), "--lobe"},
+                                                    {s.exponent.has_value(), "--exponent"},
+                                                    {s.alpha.has_value(), "--alpha"},
+                                                    {s.alphaY.has_value(), "--alpha-y"},
+                                                    {s.axis.has_value(), "--axis"},
+                                                    {s.ior.has_value(), "--ior"},
+                                                    {s.chain > 0, "--chain"},
+                                                    {!s.values.empty(), "--values"},
+                                                    {s.tolerance.has_value(), "--tolerance"},
+                                                    {s.maxError.has_value(), "--max-error"},
+                                                    {s.maxBytes.has_value(), "--max-bytes"},
+                                                    {s.verify, "--verify"}};
+    for (const auto& [isSet, name] : options)
+        if (isSet) return name;
+    return {};
+}
 
 LobeChain lobeChain(const LobeSettings& s) {
     const LobeKind kind = lobeKindFromString(s.lobe);
@@ -176,26 +199,35 @@ LobeBake bakeLobes(const LobeSettings& s, const EnvMap& source, EnvLayout layout
     const LobeChain plan = lobeChain(s);
     PrefilterOptions own = options;
     own.layout = layout;
-    if (!s.maxError && !s.maxBytes) return bakeSize(s, plan, source, size, own);
+    if (!s.maxError && !s.maxBytes) {
+        if (size >> (plan.lobes.size() - 1) == 0)
+            throw UsageError(fmt::format("--chain: {} levels halve down to one texel from --size {} on, found {}",
+                                         plan.lobes.size(), 1ll << (plan.lobes.size() - 1), size));
+        return bakeSize(s, plan, source, size, own);
+    }
     const EnvironmentTruth truth(source, options.threads);
     const auto fits = [&](int n) { return !s.maxBytes || bytesOf(plan, layout, n, format) <= *s.maxBytes; };
     if (!fits(1))
         throw Error(fmt::format("expected at most {} bytes, found {} for the smallest map", *s.maxBytes,
                                 bytesOf(plan, layout, 1, format)));
+    const int samples = std::min(s.samples, 100);
     double nearest = INFINITY;
     int largest = 1;
     for (int n = s.maxError ? 2 : 1; n <= size && fits(n); n *= 2) {
         largest = n;
         if (!s.maxError) continue;
         LobeBake bake = bakeSize(s, plan, source, n, own);
-        const double error = worstThroughFilter(plan, bake, truth, std::min(s.samples, 100), options.threads);
-        if (error <= *s.maxError) return bake;
+        const double error = worstThroughFilter(plan, bake, truth, samples, options.threads);
+        if (error <= *s.maxError) {
+            bake.error = {{"metric", kMetric}, {"samples", samples}, {"filtered_rmse", error}};
+            return bake;
+        }
         nearest = std::min(nearest, error);
     }
     if (!s.maxError) return bakeSize(s, plan, source, largest, own);
     throw Error(
         fmt::format("expected an error through the filter <= {}, found {:.3g} at size {}, the largest within the "
-                    "budget and --size",
+                    "budgets and --size (by default the source's)",
                     *s.maxError, nearest, largest));
 }
 
@@ -207,7 +239,7 @@ json verifyLobes(const LobeSettings& s, const EnvMap& source, const EnvChain& wr
     double rmse = 0, filtered = 0;
     for (std::size_t m = 0; m < plan.lobes.size(); ++m) {
         report(progress, "verifying", static_cast<double>(m) / static_cast<double>(plan.lobes.size()));
-        if (plan.lobes[m].kind == LobeKind::Mirror) {
+        if (isMirror(plan.lobes[m])) {
             levels.push_back(nullptr);
             continue;
         }
@@ -222,11 +254,8 @@ json verifyLobes(const LobeSettings& s, const EnvMap& source, const EnvChain& wr
         rmse = std::max(rmse, e.rmse);
         filtered = std::max(filtered, e.filteredRmse);
     }
-    return {{"metric", "difference from the sum over the source's texels, relative to its mean"},
-            {"samples", s.samples},
-            {"rmse", rmse},
-            {"filtered_rmse", filtered},
-            {"levels", levels}};
+    return {
+        {"metric", kMetric}, {"samples", s.samples}, {"rmse", rmse}, {"filtered_rmse", filtered}, {"levels", levels}};
 }
 
 }  // namespace nacre::cli

@@ -36,7 +36,11 @@ LobeChain lobeChain(const LobeSettings& settings);
 struct LobeBake {
     EnvChain chain;
     nlohmann::json levels;  ///< one object a level: size, exponent or alpha, how it was computed
+    nlohmann::json error;   ///< what a budget of error has measured; null without
 };
+/// The first option of a lobe that is set; empty when none is.
+std::string anyLobeOption(const LobeSettings& settings);
+
 /// Level m has size >> m. With a budget: the smallest size, a power of two, within maxError (measured between the
 /// texels, through the filter), or the largest within maxBytes. \throws nacre::Error when none is, saying how near it
 /// came

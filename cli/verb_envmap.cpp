@@ -60,11 +60,12 @@ static void tellReport(const SourceReport& r) {
 
 /// The levels that are asked for, and how prefiltered ones were made.
 static LobeBake makeLevels(const Context& context, const Settings& s, const EnvMap& source) {
-    const bool filters = !s.lobes.lobe.empty();
-    if (s.convert == filters) throw UsageError("expected what to make: --convert, or --lobe NAME");
+    if (s.convert == !s.lobes.lobe.empty()) throw UsageError("expected what to make: --convert, or --lobe NAME");
+    if (const std::string option = anyLobeOption(s.lobes); s.convert && !option.empty())
+        throw UsageError(fmt::format("{}: --convert doesn't take it", option));
     const EnvLayout layout = s.layout.empty() ? source.layout : envLayoutFromString(s.layout);
     const int size = s.size ? s.size : matchingSize(source, layout);
-    if (s.convert) return {EnvChain(convertEnv(source, layout, size, s.in.threads)), {}};
+    if (s.convert) return {EnvChain(convertEnv(source, layout, size, s.in.threads)), {}, nullptr};
     PrefilterOptions options;
     options.threads = s.in.threads;
     options.progress = terminalProgress(context.quiet);
@@ -120,14 +121,19 @@ static std::string lobesText(const json& meta) {
         text += fmt::format("  {:>4}  {}", level["size"].get<int>(), level["lobe"].get<std::string>());
         for (const char* key : {"exponent", "alpha", "alpha_y", "ior"})
             if (level.contains(key)) text += fmt::format("  {} {:.5g}", key, level[key].get<double>());
-        if (meta["error"].is_object() && meta["error"]["levels"][m].is_object()) {
+        if (level.contains("harmonics_cut")) text += "  (sharp edge: beyond the tolerance)";
+        if (meta["error"].contains("levels") && meta["error"]["levels"][m].is_object()) {
             const json& e = meta["error"]["levels"][m];
             text += fmt::format("  rmse {:.2g}  p95 {:.2g}  max {:.2g}  filtered {:.2g}", e["rmse"].get<double>(),
                                 e["p95"].get<double>(), e["max"].get<double>(), e["filtered_rmse"].get<double>());
         }
         text += "\n";
     }
-    return meta["error"].is_null() ? text + "  (--verify measures their error)\n" : text;
+    if (meta["error"].is_null()) return text + "  (--verify measures their error)\n";
+    if (!meta["error"].contains("levels"))
+        text +=
+            fmt::format("  filtered {:.2g}, the worst of all levels\n", meta["error"]["filtered_rmse"].get<double>());
+    return text;
 }
 
 static std::string summaryText(const Settings& s, const json& meta) {
@@ -155,6 +161,17 @@ static json energyJson(const EnvMap& source, const EnvMap& written, unsigned thr
     const double all = maxComponent(glm::abs(in));
     return {
         {"in", rgbJson(in)}, {"out", rgbJson(out)}, {"error", all > 0 ? maxComponent(glm::abs(out - in)) / all : 0}};
+}
+
+/// A scale that pushes radiance below the smallest half floats loses it.
+static void requireScaleFits(const Settings& s, const EnvChain& chain, const EnvChain& written) {
+    constexpr double kRounding = 1e-3;
+    const Rgb before = envEnergy(chain.levels[0], s.in.threads), after = envEnergy(written.levels[0], s.in.threads);
+    if (maxComponent(glm::abs(after - before)) > kRounding * maxComponent(glm::abs(before)))
+        throw Error(fmt::format(
+            "{}: expected a --scale that half floats can follow, found {}, by which {:.3g} % of the "
+            "energy is lost",
+            s.output, s.scale, 100 * maxComponent(glm::abs(after - before)) / maxComponent(glm::abs(before))));
 }
 
 static void runEnvmap(const Context& context, Settings& s) {
@@ -187,12 +204,13 @@ static void runEnvmap(const Context& context, Settings& s) {
     writeAsset(asset, provisional);
     const EnvChain written = envFromAsset(readAsset(provisional), s.output);
     asset.meta["energy"] = energyJson(environment.map, written.levels[0], s.in.threads);
+    requireScaleFits(s, chain, written);
     if (!s.lobes.lobe.empty()) {
         asset.meta["lobe"] = s.lobes.lobe;
         asset.meta["lobes"] = bake.levels;
         asset.meta["error"] = s.lobes.verify ? verifyLobes(s.lobes, environment.map, written, s.in.threads,
                                                            terminalProgress(context.quiet))
-                                             : json(nullptr);
+                                             : bake.error;
         endProgress();
     }
     if (!s.exporting.empty()) asset.meta["export"] = writeExport(s, chain, scale);
@@ -226,6 +244,9 @@ static constexpr const char* kDetails =
     "it up with the mirrored viewer (phong, ggx, beckmann), the normal (diffuse: irradiance/pi) or the refracted "
     "viewer.\n"
     "A chain's usual values: exponents 2^(10(1-t)+1), alphas p^2 with p(2-p) = t, t = 0 to 1.\n"
+    "--verify prints rmse, p95 and max of the error at texel centres, and filtered: the rmse between them, through "
+    "the\n"
+    "bilinear filter, all relative to the mean. Mirror levels aren't measured.\n"
     "Half floats end at 65504: brighter texels are an error in --format half and in exports, unless --scale is given.";
 
 Verb envmapVerb(Context& context) {
@@ -247,7 +268,7 @@ Verb envmapVerb(Context& context) {
          false,
          {"auto", "openexr", "gl"}},
         {"--flip", "AXIS", "x: left and right exchanged; y: upside down", into(s->in.flip), false, {"none", "x", "y"}},
-        {"--yaw", "DEGREES", "Turn the surrounding about y, from +z towards +x", degreesInto(s->yawDeg)},
+        {"--yaw", "DEGREES", "Turn the surrounding about y, from +z towards +x, after --flip", degreesInto(s->yawDeg)},
         {"--negative",
          "RULE",
          "For negative texels (default clamp); error: for non-finite ones too",

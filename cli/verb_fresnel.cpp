@@ -22,7 +22,7 @@ using nlohmann::json;
 namespace {
 
 struct Settings {
-    std::string output, eta = "1.5", k = "0", format = "half";
+    std::string output, eta, k, format = "half";
     int size = 0;  ///< 0 = 256, or what the budget asks for
     std::optional<double> maxError;
     std::optional<std::size_t> maxBytes;
@@ -30,12 +30,13 @@ struct Settings {
 };
 
 /// One number or R/G/B.
-Rgb parseColour(const std::string& flag, std::string text) {
+Rgb parseColour(const std::string& flag, const std::string& given) {
+    std::string text = given;
     std::replace(text.begin(), text.end(), '/', ',');
     std::array<double, 3> v{};
     if (parseNumbers(text, v)) return {v[0], v[1], v[2]};
     if (parseNumbers(text, {v.data(), 1})) return Rgb(v[0]);
-    throw UsageError(fmt::format("{}: expected a number or R/G/B, found '{}'", flag, text));
+    throw UsageError(fmt::format("{}: expected a number or R/G/B, found '{}'", flag, given));
 }
 
 struct Baked {
@@ -74,7 +75,9 @@ void runFresnel(const Context& context, const Settings& s) {
     const std::filesystem::path provisional = provisionalName(s.output);
     const TemporaryFile removeLater(provisional);
     requireWritable("", s.output, provisional);
-    const FresnelIndex index{parseColour("--eta", s.eta), parseColour("--k", s.k)};
+    if (s.scaleBias && !(s.eta + s.k).empty()) throw UsageError("--eta, --k: --scale-bias doesn't take them");
+    const FresnelIndex index{s.eta.empty() ? Rgb(1.5) : parseColour("--eta", s.eta),
+                             s.k.empty() ? Rgb(0) : parseColour("--k", s.k)};
     const Stopwatch baking;
     const Baked baked = bakeWithin(s, index);
     Asset asset;

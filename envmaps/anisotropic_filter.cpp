@@ -8,7 +8,7 @@ namespace nacre {
 
 Vec3 lobeTangent(const Vec3& axis, const Vec3& r) {
     Vec3 t = axis - glm::dot(axis, r) * r;
-    if (glm::dot(t, t) < 1e-20 * glm::dot(axis, axis))
+    if (glm::length(t) < 1e-10 * glm::length(axis))
         t = glm::cross(r, std::abs(r.x) < 0.5 ? Vec3(1, 0, 0) : Vec3(0, 0, 1));
     return glm::normalize(t);
 }

@@ -119,6 +119,11 @@ bool usesAlpha(LobeKind kind) {
            kind == LobeKind::BeckmannRefraction || kind == LobeKind::GgxAnisotropic;
 }
 
+bool isMirror(const Lobe& lobe) {
+    const bool refracts = lobe.kind == LobeKind::GgxRefraction || lobe.kind == LobeKind::BeckmannRefraction;
+    return lobe.kind == LobeKind::Mirror || (refracts && lobe.ior == 1);
+}
+
 bool isZonal(LobeKind kind) { return kind != LobeKind::Mirror && kind != LobeKind::GgxAnisotropic; }
 
 void validateLobe(const Lobe& lobe) {

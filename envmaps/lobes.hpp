@@ -46,7 +46,8 @@ struct ZonalKernel {
     double support = kPi;                       ///< 0 beyond [rad]
 };
 
-bool isZonal(LobeKind kind);  ///< false for Mirror and GgxAnisotropic
+bool isMirror(const Lobe& lobe);  ///< of kind Mirror, or a refraction of index 1, which bends nothing
+bool isZonal(LobeKind kind);      ///< false for Mirror and GgxAnisotropic
 
 /// The lobe's kernel. \throws std::invalid_argument when it is not zonal, and for bad parameters
 ZonalKernel zonalKernel(const Lobe& lobe);

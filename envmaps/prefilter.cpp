@@ -30,6 +30,7 @@ struct Plan {
     std::vector<double> coefficients;  ///< K_l = 2π ∫ k_smooth P_l(cosθ) sinθ dθ [sr]
     std::optional<ChordTable> middle;
     double radius = 0;
+    bool cut = false;  ///< the coefficients don't reach the tolerance
 };
 
 /// The smallest order that filters a map of one point to `tolerance`: root mean square of what the harmonics above it
@@ -52,7 +53,7 @@ std::vector<double> smoothCoefficients(const ZonalKernel& kernel, int order) {
 }
 
 Plan directPlan(const ZonalKernel& kernel) {
-    return {zonalIntegral(kernel), {}, ChordTable(kernel.value, kernel.support, kernel.width), kernel.support};
+    return {zonalIntegral(kernel), {}, ChordTable(kernel.value, kernel.support, kernel.width), kernel.support, false};
 }
 
 /// Splits a narrow kernel at an angle, smoothly: the outer part has few harmonics, the middle few texels (as Ewald
@@ -63,7 +64,7 @@ Plan splitPlan(const ZonalKernel& kernel, double tolerance) {
     if (kernel.support <= 6 * w) return directPlan(kernel);
     for (double centre = 4 * w;; centre += w) {
         const auto outer = [=](double theta) { return 0.5 * (1 + std::erf((theta - centre) / w)); };
-        Plan plan{integral, {}, {}, centre + 4 * w};
+        Plan plan{integral, {}, {}, centre + 4 * w, false};
         const ZonalKernel smooth{[=](double t) { return kernel.value(t) * outer(t); }, std::min(w, kernel.width),
                                  kernel.support};
         plan.coefficients = smoothCoefficients(smooth, kProbedOrder);
@@ -101,18 +102,13 @@ Plan makePlan(const EnvMap& source, const PrefilterLevel& level, const Prefilter
         const int order = sufficientOrder(relative, options.tolerance);
         if (order <= std::min(kLargestOrder, probed * 4 / 5)) {
             relative.resize(order + 1);
-            return {1, relative, {}, 0};
+            return {1, relative, {}, 0, false};
         }
         if (probed < kProbedOrder) continue;
         if (kernel.width < kWide) return splitPlan(kernel, options.tolerance);
         relative.resize(kEdgeOrder + 1);
-        return {1, relative, {}, 0};
+        return {1, relative, {}, 0, true};
     }
-}
-
-bool isMirror(const Lobe& lobe) {
-    const bool refracts = lobe.kind == LobeKind::GgxRefraction || lobe.kind == LobeKind::BeckmannRefraction;
-    return lobe.kind == LobeKind::Mirror || (refracts && lobe.ior == 1);
 }
 
 /// Texels a block may average: what it blurs, l(l+1)(b²−1)h²/24 of a harmonic, stays below the tolerance.
@@ -252,7 +248,8 @@ Prefiltered prefilter(const EnvMap& source, std::span<const PrefilterLevel> leve
             out.levels.push_back(filterLevel(source, basis, plans[i], size, options));
         else
             out.levels.push_back(filterAnisotropic(source, levels[i].lobe, options.layout, size, options.threads));
-        out.steps.push_back({static_cast<int>(plans[i].coefficients.size()) - 1, plans[i].radius, watch.seconds()});
+        out.steps.push_back(
+            {static_cast<int>(plans[i].coefficients.size()) - 1, plans[i].radius, plans[i].cut, watch.seconds()});
     }
     return out;
 }

@@ -20,6 +20,7 @@ struct PrefilterLevel {
 struct PrefilterStep {
     int order = 0;            ///< harmonics up to this degree; −1 = none
     double directRadius = 0;  ///< the kernel within this angle was summed texel by texel [rad]; 0 = nowhere
+    bool cut = false;  ///< a lobe with a sharp edge (Phong below 0.5): harmonics end before the tolerance is reached
     double seconds = 0;
 };
 

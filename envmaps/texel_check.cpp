@@ -56,7 +56,7 @@ static void mendNonFinite(Image& image, const TexelTopology& topology) {
             if (!isFinite(before.rgb(x, y))) image.setRgb(x, y, neighbourMean(before, x, y, topology));
 }
 
-/// \return the energy removed, in percent of what is left
+/// \return the energy removed, in percent of Σ |L| dω
 static double clampNegative(Image& image, std::span<const double> weights) {
     double removed = 0, left = 0;
     for (std::size_t i = 0; i < image.data().size(); ++i) {
@@ -65,7 +65,7 @@ static double clampNegative(Image& image, std::span<const double> weights) {
         (v < 0 ? removed : left) += std::abs(energy);
         if (v < 0) v = 0;
     }
-    return removed > 0 ? 100 * removed / left : 0;
+    return removed > 0 ? 100 * removed / (removed + left) : 0;
 }
 
 TexelReport checkTexels(Image& image, std::span<const double> weights, const TexelTopology& topology,
@@ -76,6 +76,8 @@ TexelReport checkTexels(Image& image, std::span<const double> weights, const Tex
     if (policy == NegativePolicy::Error && report.negative + report.nonFinite > 0)
         throw Error(fmt::format("{}: expected finite texels >= 0, found {} negative and {} non-finite of {}, first {}",
                                 name, report.negative, report.nonFinite, report.texels, report.firstBad));
+    if (report.nonFinite == report.texels)
+        throw Error(fmt::format("{}: expected finite texels, found none among {}", name, report.texels));
     if (report.nonFinite > 0) mendNonFinite(image, topology);
     if (policy == NegativePolicy::Clamp && report.negative > 0)
         report.energyRemovedPercent = clampNegative(image, weights);

@@ -4,6 +4,7 @@
 
 #include "core/error.hpp"
 #include "core/parallel.hpp"
+#include "envmaps/anisotropic_filter.hpp"
 #include "reference/microfacet_terms.hpp"
 
 namespace nacre {
@@ -33,9 +34,10 @@ double refractedWeight(const Lobe& lobe, bool beckmann, const Vec3& r, const Vec
 
 /// By the half vector's angles in the frame (tangent, bitangent, r).
 double anisotropicWeight(const Lobe& lobe, const Vec3& r, const Vec3& l) {
-    const Vec3 b = glm::cross(r, lobe.axis), h = glm::normalize(l + r);
+    // Where r is along the axis the tangent is the baker's convention.
+    const bool along = glm::length(glm::cross(r, lobe.axis)) < 1e-10 * glm::length(lobe.axis);
+    const Vec3 b = glm::cross(r, along ? lobeTangent(lobe.axis, r) : lobe.axis), h = glm::normalize(l + r);
     const double length = glm::length(b);
-    if (length < 1e-10 * glm::length(lobe.axis)) return 0;  // no tangent there: the baker takes any, the truth none
     const double hy = glm::dot(h, b) / length, hx = glm::dot(h, glm::cross(b, r)) / length;
     const double theta = std::atan2(std::hypot(hx, hy), glm::dot(h, r));
     return terms::ggx(theta, std::atan2(hy, hx), lobe.alpha, lobe.alphaY) * glm::dot(r, l);

@@ -247,6 +247,7 @@ TEST(CommandEnvmapLobe, BudgetsChooseTheSizeOrFail) {
     const Outcome cheap =
         nacre(filter(source, scratch / "a.exr", {"--lobe", "diffuse", "--max-error", "0.02", "--json"}));
     ASSERT_EQ(cheap.code, 0) << cheap.err;
+    EXPECT_LE(json::parse(cheap.out)["error"]["filtered_rmse"], 0.02);
     EXPECT_LE(json::parse(cheap.out)["size"], 8);
     const Outcome small =
         nacre(filter(source, scratch / "b.exr", {"--lobe", "diffuse", "--max-bytes", "5000", "--json"}));
@@ -275,7 +276,28 @@ TEST(CommandEnvmapLobe, WrongUsageIsExitTwo) {
     fails({"--lobe", "ggx_refraction", "--alpha", "0.1"}, "--ior");
     fails({"--lobe", "ggx", "--chain", "3", "--values", "0.1,0.2"}, "--values");
     fails({"--lobe", "ggx", "--chain", "3", "--values", "0.1,0.2,0.1"}, "strictly");
+    fails({"--lobe", "ggx", "--chain", "9", "--size", "16"}, "--chain");
+    fails({"--lobe", "mirror", "--max-error", "0.1"}, "--max-error");
+    fails({"--convert", "--max-bytes", "1000"}, "--max-bytes");
+    fails({"--convert", "--ior", "1.5"}, "--ior");
     EXPECT_FALSE(std::filesystem::exists(scratch / "a.exr"));
+}
+
+TEST(CommandEnvmapLobe, ScaleThatLosesTheLightIsRefused) {
+    const Scratch scratch;
+    const std::string source = latlong(scratch);
+    expectFailure(nacre(filter(source, scratch / "a.exr", {"--lobe", "diffuse", "--format", "half", "--scale", "1e9"})),
+                  1, {"--scale", "lost"});
+    EXPECT_FALSE(std::filesystem::exists(scratch / "a.exr"));
+}
+
+TEST(CommandEnvmapLobe, SourceWithoutAFiniteTexelIsRefused) {
+    const Scratch scratch;
+    Image image(8, 4, 3);
+    for (float& v : image.data()) v = NAN;
+    writeExr(image, (scratch / "nan.exr").string());
+    expectFailure(nacre(filter((scratch / "nan.exr").string(), scratch / "a.exr", {"--lobe", "diffuse"})), 1,
+                  {"nan.exr", "finite"});
 }
 
 TEST(CommandFresnel, TablesCarryTheirErrorAndAnswer) {
