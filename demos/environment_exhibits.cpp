@@ -5,7 +5,7 @@
 #include "core/error.hpp"
 #include "demos/environment_task.hpp"
 #include "demos/orientation_chart.hpp"
-#include "demos/page.hpp"
+#include "demos/recipe.hpp"
 #include "envmaps/convert.hpp"
 #include "envmaps/fresnel_table.hpp"
 #include "envmaps/prefilter.hpp"
@@ -63,12 +63,13 @@ Exhibit chart(const Task& task) {
 }
 
 Exhibit figure5(const Task& task) {
+    constexpr int kMirrorSize = 512;  // texels half as wide as the source's: its lamps are single texels
     const Surrounding s = task.open("interior");
     const EnvMap coarse = convertEnv(s.map, EnvLayout::Cube, task.size(32));
     const Body torus = torusBody(task.size(224));
     const Lobe diffuse{LobeKind::Diffuse};
     const std::vector<PrefilterLevel> level{{diffuse, 32}};
-    const GpuEnvironment mirrorMap(convertEnv(s.map, EnvLayout::Cube, 256)),
+    const GpuEnvironment mirrorMap(convertEnv(s.map, EnvLayout::Cube, kMirrorSize)),
         diffuseMap(prefilter(coarse, level, {}).levels);
     const Rgb albedo(0.6, 0.32, 0.16);
     const EnvironmentTruth truth(coarse);
@@ -104,7 +105,7 @@ Exhibit figure5(const Task& task) {
                 const Rgb ground = row.diffuse ? below[k] : Rgb(0);
                 expected[k] = row.blend ? blendReflection(f, mirror[k], ground) : addReflection(f, mirror[k], ground);
             }
-            builder.panel(fmt::format("n = {}", formatNumber(indices[i])), torus, surface, {&mirrorMap}, expected);
+            builder.panel(fmt::format("n = {}", indices[i]), torus, surface, {&mirrorMap}, expected);
         }
     }
     Exhibit e;
@@ -114,12 +115,16 @@ Exhibit figure5(const Task& task) {
         "At n = 1.5, about glass, only grazing views reflect; at n = 200, as in metals, all do, and the coat hides its "
         "ground. Three lookups a pixel: mirror map, irradiance map, Fresnel table. The reference takes Fresnel's exact "
         "formula, the mirror's radiance from the map as it came, and sums the cosine lobe over every texel for each "
-        "point.";
+        "point. The relative errors are those of lamps of a texel or two, far brighter than white.";
     e.scene = fmt::format(
-        "Torus; {}; mirror cube of 256² faces, irradiance from {}² to 32² faces, Fresnel tables of 128 texels.",
-        s.words, coarse.size());
-    e.commands = envmapCommands(s, {"mirror.exr --convert --layout cube --size 256 --format half",
-                                    "irradiance.exr --lobe diffuse --layout cube --size 32 --format half"});
+        "Torus; {}; mirror cube of {}² faces, irradiance from {}² to 32² faces, Fresnel tables of 128 texels.", s.words,
+        kMirrorSize, coarse.size());
+    e.commands =
+        envmapCommands(s, coarse.size(), {"irradiance.exr --lobe diffuse --layout cube --size 32 --format half"});
+    if (!s.file.empty())
+        e.commands.push_back(
+            fmt::format("nacre envmap {} -o mirror.exr --convert --layout cube --size {} --format half",
+                        shellQuoted(s.file), kMirrorSize));
     builder.finish(e);
     return e;
 }
@@ -138,7 +143,7 @@ Exhibit phong(const Task& task) {
     builder.picture("as it came", convertEnv(s.map, EnvLayout::LatLong, 192).image);
     builder.picture("filtered: what a glossy surface reflects, by the mirrored direction",
                     convertEnv(filtered[0], EnvLayout::LatLong, 192).image);
-    const Body sphere = sphereBody(task.size(176)), torus = torusBody(task.size(176));
+    const Body sphere = sphereBody(task.size(160)), torus = torusBody(task.size(160));
     for (const bool transmits : {false, true}) {
         builder.row(transmits ? "Reflection and transmission of rough glass, n = 1.5: F·Lr + (1 − F)·Lt"
                               : "Reflection alone");
@@ -169,7 +174,8 @@ Exhibit phong(const Task& task) {
         "lookup with the mirrored direction is a glossy reflection, one with the refracted direction a glossy "
         "transmission. The reference evaluates equation 6 for each point.";
     e.scene = fmt::format("Sphere and torus; {}; filtered from {}² to 64² faces.", s.words, coarse.size());
-    e.commands = envmapCommands(s, {"glossy.exr --lobe phong --exponent 100 --layout cube --size 64 --format half"});
+    e.commands = envmapCommands(s, coarse.size(),
+                                {"glossy.exr --lobe phong --exponent 100 --layout cube --size 64 --format half"});
     builder.finish(e);
     return e;
 }

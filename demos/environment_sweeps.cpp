@@ -4,7 +4,6 @@
 #include "core/parallel.hpp"
 #include "core/sampling.hpp"
 #include "demos/environment_task.hpp"
-#include "demos/page.hpp"
 #include "demos/stage.hpp"
 #include "envmaps/convert.hpp"
 #include "envmaps/fresnel_table.hpp"
@@ -88,8 +87,7 @@ Exhibit ggxSweepExhibit(const Task& task) {
         exact.reflection = [&](const Vec3& d) { return truth(lobe, d); };
         exact.weight = [](double c) { return fresnelExact(kGold, c); };
         report(task.options.progress, task.id + ": reference", 0);
-        builder.panel(fmt::format("√alpha = {}", formatNumber(perceptual, 2)), sphere, surface, {&sky},
-                      shade(sphere, exact, s.map));
+        builder.panel(fmt::format("√alpha = {}", perceptual), sphere, surface, {&sky}, shade(sphere, exact, s.map));
     }
     Exhibit e;
     e.section = kSweeps;
@@ -102,8 +100,9 @@ Exhibit ggxSweepExhibit(const Task& task) {
         "with gold's exact Fresnel factor.";
     e.scene = fmt::format("Sphere; {}; chain from {}² to faces of 256² down to 8².", s.words, coarse.size());
     e.commands =
-        envmapCommands(s, {"ggx.exr --lobe ggx --chain 6 --values 0.04,0.0784,0.1444,0.2809,0.5329,1 --layout cube "
-                           "--size 256 --format half"});
+        envmapCommands(s, coarse.size(),
+                       {"ggx.exr --lobe ggx --chain 6 --values 0.04,0.0784,0.1444,0.2809,0.5329,1 --layout cube "
+                        "--size 256 --format half"});
     builder.finish(e);
     return e;
 }
@@ -133,12 +132,12 @@ Exhibit sunExhibit(const Task& task) {
     ExhibitBuilder builder(task.loader, task.id, task.builder());
     for (const bool sampled : {false, true}) {
         builder.row(sampled ? fmt::format("For comparison: {} samples of the lobe a texel, as is usual", kSamples)
-                            : "Filtered by nacre");
+                            : "Filtered by nacre",
+                    !sampled);
         for (std::size_t i = 0; i < roughness.size(); ++i) {
             EnvironmentSurface surface;
             surface.reflection.map = &maps[i + (sampled ? roughness.size() : 0)];
-            builder.panel(fmt::format("√alpha = {}", formatNumber(roughness[i], 2)), sphere, surface, {&sky},
-                          expected[i]);
+            builder.panel(fmt::format("√alpha = {}", roughness[i]), sphere, surface, {&sky}, expected[i]);
         }
     }
     Exhibit e;
@@ -150,7 +149,9 @@ Exhibit sunExhibit(const Task& task) {
         "which sums the lobe over every texel for each point.";
     e.scene = fmt::format("Sphere that reflects without loss; {}; filtered from {}² to {}² faces.", s.words,
                           coarse.size(), kSize);
-    e.commands = envmapCommands(s, {"sun.exr --lobe ggx --alpha 0.16 --layout cube --size 64 --format half"});
+    e.commands = envmapCommands(s, coarse.size(),
+                                {"sun40.exr --lobe ggx --alpha 0.16 --layout cube --size 64 --format half",
+                                 "sun65.exr --lobe ggx --alpha 0.4225 --layout cube --size 64 --format half"});
     builder.finish(e);
     return e;
 }
@@ -217,7 +218,8 @@ Exhibit lampsExhibit(const Task& task) {
         "Copper of alpha = 0.2: a warm and a cool lamp through the factored BRDF, the studio through a GGX map and a "
         "Fresnel table. The reference takes the unfactored BRDF and sums the lobe over every texel.";
     e.scene = fmt::format("Torus; {}; filtered from {}² to 64² faces.", s.words, coarse.size());
-    e.commands = envmapCommands(s, {"copper.exr --lobe ggx --alpha 0.2 --layout cube --size 64 --format half"});
+    e.commands =
+        envmapCommands(s, coarse.size(), {"copper.exr --lobe ggx --alpha 0.2 --layout cube --size 64 --format half"});
     builder.finish(e);
     return e;
 }

@@ -1,5 +1,7 @@
 #include "demos/environment_task.hpp"
 
+#include <fmt/format.h>
+
 #include "demos/recipe.hpp"
 
 namespace nacre {
@@ -14,10 +16,13 @@ std::vector<Rgb> shade(const Body& body, const SurroundedSurface& surface, const
     return shadeSurrounded(body.traced, surface, [&](const Vec3& d) { return sampleEnv(sky, d); });
 }
 
-std::vector<std::string> envmapCommands(const Surrounding& s, const std::vector<std::string>& rest) {
-    std::vector<std::string> out;
-    if (!s.file.empty())
-        for (const std::string& r : rest) out.push_back("nacre envmap " + shellQuoted(s.file) + " -o " + r);
+std::vector<std::string> envmapCommands(const Surrounding& s, int coarseSize, const std::vector<std::string>& filters) {
+    if (s.file.empty()) return {};
+    const std::string name = std::filesystem::path(s.file).stem().string(),
+                      coarse = fmt::format("{}-{}.exr", name, coarseSize);
+    std::vector<std::string> out{fmt::format("nacre envmap {} -o {} --convert --layout cube --size {}",
+                                             shellQuoted(s.file), coarse, coarseSize)};
+    for (const std::string& filter : filters) out.push_back(fmt::format("nacre envmap {} -o {}", coarse, filter));
     return out;
 }
 

@@ -22,8 +22,9 @@ struct Task {
 /// The truth's samples, before the surrounding as it came.
 std::vector<Rgb> shade(const Body& body, const SurroundedSurface& surface, const EnvMap& sky);
 
-/// `nacre envmap FILE -o …`, which makes what this program made by the same calls. Empty for a made-up sky.
-std::vector<std::string> envmapCommands(const Surrounding& s, const std::vector<std::string>& rest);
+/// `nacre envmap` commands that make the exhibit's maps: the surrounding into a cube of the size that the filters start
+/// from, and from that one each of `filters` ("OUT.exr --lobe …"). Empty for a made-up sky.
+std::vector<std::string> envmapCommands(const Surrounding& s, int coarseSize, const std::vector<std::string>& filters);
 
 /// environment_sweeps.cpp
 Exhibit ggxSweepExhibit(const Task& task);

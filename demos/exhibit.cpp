@@ -54,9 +54,9 @@ nlohmann::json panelJson(const Exhibit& e, const Panel& panel) {
 
 std::optional<double> lowestPsnr(const Exhibit& exhibit) {
     std::optional<double> lowest;
-    forEachPanel(exhibit, [&](const Panel& p) {
-        if (p.comparison) lowest = std::min(lowest.value_or(p.comparison->psnr), p.comparison->psnr);
-    });
+    for (const PanelRow& row : exhibit.rows)
+        for (const Panel& p : row.panels)
+            if (row.ours && p.comparison) lowest = std::min(lowest.value_or(p.comparison->psnr), p.comparison->psnr);
     return lowest;
 }
 
@@ -103,7 +103,7 @@ nlohmann::json exhibitJson(const Exhibit& e) {
         nlohmann::json panels = nlohmann::json::array();
         for (const Panel& panel : row.panels) panels.push_back(panelJson(e, panel));
         count += row.panels.size();
-        rows.push_back({{"title", row.title}, {"panels", panels}});
+        rows.push_back({{"title", row.title}, {"ours", row.ours}, {"panels", panels}});
     }
     require(count > 0, "gallery entry " + e.id + " has no panel");
     nlohmann::json json{{"id", e.id},

@@ -33,6 +33,7 @@ struct Panel {
 struct PanelRow {
     std::string title;  ///< may be empty
     std::vector<Panel> panels;
+    bool ours = true;  ///< false: another method, shown for comparison; the summary leaves it out
 };
 
 struct Exhibit {
@@ -45,7 +46,7 @@ struct Exhibit {
     std::vector<std::string> commands;           ///< make the maps, word for word
 };
 
-/// The lowest PSNR of its panels; nothing where none has a truth.
+/// The lowest PSNR of its own panels (PanelRow::ours); nothing where none has a truth.
 std::optional<double> lowestPsnr(const Exhibit& exhibit);
 
 /// The longest frame of its panels [ms]; nothing where none was timed.

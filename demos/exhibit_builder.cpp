@@ -47,7 +47,7 @@ Body torusBody(int size) { return {makeTorus(1, 0.45f, 160, 120), cameraFrom(38,
 ExhibitBuilder::ExhibitBuilder(ProgramLoader& loader, std::string id, BuilderOptions options)
     : loader_(loader), id_(std::move(id)), options_(std::move(options)) {}
 
-void ExhibitBuilder::row(const std::string& title) { rows_.push_back({title, {}}); }
+void ExhibitBuilder::row(const std::string& title, bool ours) { rows_.push_back({title, ours, {}}); }
 
 void ExhibitBuilder::panel(const std::string& label, const Body& body, const EnvironmentSurface& surface,
                            const EnvironmentLookup& sky, const std::vector<Rgb>& truth) {
@@ -67,26 +67,26 @@ void ExhibitBuilder::panel(const std::string& label, const Body& body, std::func
     draw(target);
     renderSky(loader_, target, body.camera, sky);
     RaytracedPicture picture = assemblePicture(body.traced, truth);
-    rows_.back().second.push_back({label, halved(target.read()), std::move(picture.radiance),
+    rows_.back().panels.push_back({label, halved(target.read()), std::move(picture.radiance),
                                    std::move(picture.coverage), &body, std::move(draw)});
 }
 
 void ExhibitBuilder::picture(const std::string& label, Image radiance) {
-    rows_.back().second.push_back({label, std::move(radiance), {}, {}, nullptr, {}});
+    rows_.back().panels.push_back({label, std::move(radiance), {}, {}, nullptr, {}});
 }
 
 double ExhibitBuilder::whiteOfTruths() const {
     double white = 0;
-    for (const auto& [title, raws] : rows_)
-        for (const Raw& raw : raws)
+    for (const RawRow& row : rows_)
+        for (const Raw& raw : row.panels)
             if (!raw.truth.empty()) white = std::max(white, pictureWhite(raw.truth, raw.mask));
     return white > 0 ? white : 1;
 }
 
 double ExhibitBuilder::scaleOfDifferences(double white) const {
     double scale = 1e-3;
-    for (const auto& [title, raws] : rows_)
-        for (const Raw& raw : raws)
+    for (const RawRow& row : rows_)
+        for (const Raw& raw : row.panels)
             if (!raw.truth.empty())
                 scale = std::max(scale, differenceQuantile(raw.drawn, raw.truth, white, raw.mask, kBeyondScale));
     return roundUpScale(scale);
@@ -111,8 +111,8 @@ void ExhibitBuilder::time(Exhibit& exhibit) const {
     std::vector<std::unique_ptr<RenderTarget>> targets;
     const Body* first = nullptr;
     for (std::size_t r = 0; r < rows_.size(); ++r)
-        for (std::size_t i = 0; i < rows_[r].second.size(); ++i) {
-            const Raw& raw = rows_[r].second[i];
+        for (std::size_t i = 0; i < rows_[r].panels.size(); ++i) {
+            const Raw& raw = rows_[r].panels[i];
             if (raw.body == nullptr) continue;
             if (first == nullptr) first = raw.body;
             targets.push_back(std::make_unique<RenderTarget>(targetOptions(*raw.body)));
@@ -141,9 +141,9 @@ void ExhibitBuilder::finish(Exhibit& exhibit, double white) {
     const double scale = scaleOfDifferences(white);
     exhibit.differenceScale = scale;
     for (std::size_t r = 0; r < rows_.size(); ++r) {
-        PanelRow row{rows_[r].first, {}};
-        for (std::size_t i = 0; i < rows_[r].second.size(); ++i)
-            row.panels.push_back(encode(rows_[r].second[i], fmt::format("{}-{}-{}", id_, r + 1, i + 1), white, scale));
+        PanelRow row{rows_[r].title, {}, rows_[r].ours};
+        for (std::size_t i = 0; i < rows_[r].panels.size(); ++i)
+            row.panels.push_back(encode(rows_[r].panels[i], fmt::format("{}-{}-{}", id_, r + 1, i + 1), white, scale));
         exhibit.rows.push_back(std::move(row));
     }
     time(exhibit);

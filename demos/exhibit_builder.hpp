@@ -35,7 +35,7 @@ class ExhibitBuilder {
 public:
     ExhibitBuilder(ProgramLoader& loader, std::string id, BuilderOptions options);
 
-    void row(const std::string& title);
+    void row(const std::string& title, bool ours = true);
     /// A surface in its surrounding before `sky`, and its truth: one radiance for each sample of the body's.
     /// What pointers lead to must live until finish().
     void panel(const std::string& label, const Body& body, const EnvironmentSurface& surface,
@@ -56,6 +56,11 @@ private:
         const Body* body = nullptr;
         std::function<void(const RenderTarget&)> draw;
     };
+    struct RawRow {
+        std::string title;
+        bool ours = true;
+        std::vector<Raw> panels;
+    };
     double whiteOfTruths() const;
     double scaleOfDifferences(double white) const;
     Panel encode(const Raw& raw, const std::string& stem, double white, double scale) const;
@@ -64,7 +69,7 @@ private:
     ProgramLoader& loader_;
     std::string id_;
     BuilderOptions options_;
-    std::vector<std::pair<std::string, std::vector<Raw>>> rows_;
+    std::vector<RawRow> rows_;
 };
 
 }  // namespace nacre

@@ -49,6 +49,11 @@ TEST(Exhibit, PageAndJsonHoldEveryNumber) {
     EXPECT_EQ(json.at("rows").at(1).at("panels").at(0).at("psnr_db"), 43.25);
     EXPECT_FALSE(json.at("rows").at(0).at("panels").at(0).contains("psnr_db"));
     EXPECT_EQ(lowestPsnr(someExhibit()), 43.25);
+    Exhibit compared = someExhibit();
+    compared.rows.push_back(compared.rows[1]);
+    compared.rows.back().panels[0].comparison->psnr = 10;
+    compared.rows.back().ours = false;
+    EXPECT_EQ(lowestPsnr(compared), 43.25);
     EXPECT_EQ(longestFrame(someExhibit()), 2.5);
     EXPECT_EQ(picturesOf(someExhibit()).size(), 7u);
 }
