@@ -82,9 +82,10 @@ Plan splitPlan(const ZonalKernel& kernel, double tolerance) {
 /// where the largest weight decides and harmonics' rounding would drown it.
 bool isDirectBetter(const ZonalKernel& kernel, double points, double results) {
     constexpr double kPairs = 3e6;  // kernel evaluations that cost less than the smallest transforms
+    constexpr double kFew = 3e4;    // points that are sorted into cells in no time
     const double spacing = std::sqrt(4 * kPi / points);
     const double pairs = results * points * 0.5 * (1 - std::cos(kernel.support));
-    return pairs < kPairs || (kernel.width < 0.5 * spacing && kernel.support < 16 * spacing);
+    return (points < kFew && pairs < kPairs) || (kernel.width < 0.5 * spacing && kernel.support < 16 * spacing);
 }
 
 Plan makePlan(const EnvMap& source, const PrefilterLevel& level, const PrefilterOptions& options) {

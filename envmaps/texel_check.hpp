@@ -19,7 +19,7 @@ struct TexelReport {
     std::size_t negative = 0;    ///< texels with a component below 0
     std::size_t nonFinite = 0;   ///< texels with NaN or an infinity
     std::size_t overflowed = 0;  ///< texels with a component of 65504 or more, or +infinity: what half can't tell apart
-    double energyRemovedPercent = 0;  ///< −Σ negative components · dω over the Σ L dω that is left, in percent
+    double energyRemovedPercent = 0;  ///< −Σ negative components · dω over Σ |L| dω, in percent
     std::string firstBad;             ///< "(x, y) r g b" of the first negative or non-finite texel
 };
 
