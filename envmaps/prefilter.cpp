@@ -96,9 +96,9 @@ Plan makePlan(const EnvMap& source, const PrefilterLevel& level, const Prefilter
     };
     if (isDirectBetter(kernel, texels(source.layout, source.size()), texels(options.layout, level.size)))
         return directPlan(kernel);
-    // Most kernels need some ten waves across their width: probe that far before all.
-    int probed = std::min(kProbedOrder, static_cast<int>(16 / kernel.width) + 96);
-    for (;; probed = kProbedOrder) {
+    // Most kernels need a few waves across their width: probe that far before all.
+    int probed = std::min(kProbedOrder, static_cast<int>(6 / kernel.width) + 64);
+    for (;; probed = std::min(kProbedOrder, 2 * probed)) {
         std::vector<double> relative = zonalCoefficients(kernel, probed);
         const int order = sufficientOrder(relative, options.tolerance);
         if (order <= std::min(kLargestOrder, probed * 4 / 5)) {

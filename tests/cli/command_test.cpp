@@ -56,7 +56,7 @@ TEST(CommandUsage, HelpOfEveryVerbGoesToStandardOutput) {
 
 TEST(CommandUsage, WrongUsageIsExitTwo) {
     const Scratch scratch;
-    expectFailure(nacre({}), 2, {"expected a verb", "factorize, envmap, info, eval, models, methods"});
+    expectFailure(nacre({}), 2, {"expected a verb", "factorize, envmap, fresnel, sh, info, eval, models, methods"});
     expectFailure(nacre({"frobnicate"}), 2, {"'frobnicate'", "factorize"});
     expectFailure(nacre({"factorize", "lambert"}), 2, {"--output is required"});
     expectFailure(nacre({"info"}), 2, {"file"});
