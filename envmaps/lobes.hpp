@@ -10,16 +10,18 @@
 
 namespace nacre {
 
-/// Mirror: none, the radiance itself. With r the axis and l the light's direction, θ = angle(r, l):
-///   Diffuse         max(0, cosθ)                          irradiance/π; r = normal (Greene 1986)
-///   Phong           max(0, cosθ)^exponent                 exponent = 1/r of HSE section 1.6, eq. 6; r = mirrored
-///   viewer Ggx, Beckmann   D(θ/2) · max(0, cosθ)                 n = v = r, weight D(n·h) · n·l GgxRefraction,
-///   BeckmannRefraction                     n = v, r = refracted viewer, −n; h with θ = θh − θt(θh):
-///                   D(θh) cosθh · dωh/dωl · cosθ          weight: density of l times |n·l| (Walter 2007, eq. 17)
-///   GgxAnisotropic  D(h) · max(0, cosθ)                    n = v = r, widths alpha along the tangent and alphaY across
-///   it;
-///                   the tangent is `axis` without its part along r: a frame stated once for the whole map
-enum class LobeKind { Mirror, Diffuse, Phong, Ggx, Beckmann, GgxRefraction, BeckmannRefraction, GgxAnisotropic };
+/// With r the axis, l the light's direction, θ = angle(r, l), h the half vector, D a distribution of facets:
+enum class LobeKind {
+    Mirror,    ///< none: the radiance itself
+    Diffuse,   ///< max(0, cosθ): irradiance/π; r = normal (Greene 1986)
+    Phong,     ///< max(0, cosθ)^exponent, exponent = 1/r of HSE section 1.6, eq. 6; r = mirrored viewer
+    Ggx,       ///< D(θ/2) · max(0, cosθ): n = v = r, weight D(n·h) · n·l
+    Beckmann,  ///< the same with Beckmann's D
+    GgxRefraction,  ///< D(θh) cosθh · dωh/dωl · cosθ: n = v, r = refracted viewer, θ = θh − θt (Walter 2007, eq. 17)
+    BeckmannRefraction,  ///< the same with Beckmann's D
+    GgxAnisotropic  ///< D(h) · max(0, cosθ): alpha along the tangent, alphaY across; tangent = `axis` without its part
+                    ///< along r
+};
 
 std::string toString(LobeKind kind);  ///< mirror, diffuse, phong, ggx, … as lobeNames() lists them
 /// \throws std::invalid_argument that lists the known names

@@ -42,7 +42,9 @@ struct Prefiltered {
 /// source's layout; each result is divided by the same sum over a white map. Kernels that harmonics of a moderate
 /// degree hold are products of coefficients (envmaps/sphere_transform.hpp); of narrower ones the middle is summed
 /// directly. Negative values that the cut harmonics bring to a map without any are set to 0. Mirror levels are
-/// area-filtered. \param source  finite texels, any layout \throws std::invalid_argument for bad lobes, sizes or texels
+/// area-filtered.
+/// \param source  finite texels, any layout
+/// \throws std::invalid_argument for bad lobes, sizes or texels
 Prefiltered prefilter(const EnvMap& source, std::span<const PrefilterLevel> levels, const PrefilterOptions& options);
 
 }  // namespace nacre
