@@ -153,7 +153,7 @@ double descent(const Patch& patch, const Vec2& at, double z, const Vec3& d, doub
     const double discriminant = f1 * f1 - 4 * f2 * f0;
     if ((f1 >= 0 && f2 >= 0) || discriminant <= 0) return kNone;  // rises for ever, or touches at most
     const double root = f1 < 0 ? 2 * f0 / (std::sqrt(discriminant) - f1) : (f1 + std::sqrt(discriminant)) / (-2 * f2);
-    return root < length ? root : kNone;  // at the end itself the next patch decides whether it goes below
+    return root < length - kRounding ? root : kNone;  // at its very end the next patch decides whether it goes below
 }
 
 double snapped(double component) { return std::abs(component) < kAxis ? 0 : component; }
