@@ -46,6 +46,9 @@ Vec2 centreOf(int x, int y) { return {x + 0.5, y + 0.5}; }
 
 void requireCount(int count) { require(count >= 1, fmt::format("bump error: expected samples >= 1, found {}", count)); }
 
+/// NaN when either is: an answer that is no number must not pass for a good one.
+double larger(double a, double b) { return std::isnan(a) || a >= b ? a : b; }
+
 double share(std::size_t part, std::size_t whole) {
     return whole == 0 ? 0 : static_cast<double>(part) / static_cast<double>(whole);
 }
@@ -80,7 +83,7 @@ HorizonError measureHorizons(const HorizonSamples& samples,
         const double error = std::abs(elevation(s.x, s.y, s.k) - s.elevation);
         squares[s.k] += error * error;
         counts[s.k] += 1;
-        if (!(error <= out.maxRad)) out.maxRad = error;  // NaN stays
+        out.maxRad = larger(out.maxRad, error);
         if (error <= 1e-3) ++near;
     }
     const auto rmse = [](double sum, double count) { return count == 0 ? 0 : std::sqrt(sum / count) * 180 / kPi; };
@@ -88,8 +91,7 @@ HorizonError measureHorizons(const HorizonSamples& samples,
     for (int k = 0; k < azimuths; ++k) {
         sum += squares[k];
         if (4 * k % azimuths == 0) axisSum += squares[k], axisCount += counts[k];  // 0, π/2, π, 3π/2
-        const double own = rmse(squares[k], counts[k]);
-        if (!(own <= out.rmseDegWorst)) out.rmseDegWorst = own;
+        out.rmseDegWorst = larger(out.rmseDegWorst, rmse(squares[k], counts[k]));
     }
     out.rmseDeg = rmse(sum, static_cast<double>(samples.samples.size()));
     out.rmseDegAlongAxes = rmse(axisSum, axisCount);
