@@ -13,8 +13,10 @@ std::vector<float> horizonSlopes(const HeightMap& map, double azimuth, unsigned 
     const SweepGrid grid(map, azimuth);
     const SweepPath path = sweepPath(grid, reachOf(map));
     std::vector<float> out(map.heights.texelCount());
-    sweepTexels(
-        grid, threads, [&](int x, int y, float* slopes) { sweepHorizon(grid, path, x, y, slopes); }, out);
+    const auto sweep = [&](int x, int y, SweepHints& hints, float* slopes) {
+        sweepHorizon(grid, path, x, y, hints, slopes);
+    };
+    sweepTexels(grid, threads, sweep, out);
     for (std::size_t i = 0; i < out.size(); ++i)
         if (std::isnan(map.heights.data()[i])) out[i] = 0;
     return out;

@@ -110,20 +110,21 @@ SweepPath sweepPath(const SweepGrid& grid, double reach) {
     return out;
 }
 
-void sweepTexels(const SweepGrid& grid, unsigned threads, const std::function<void(int, int, float*)>& sweep,
-                 std::vector<float>& out) {
-    constexpr int kRows = 8;  // a task
+void sweepTexels(const SweepGrid& grid, unsigned threads, const SweepCall& sweep, std::vector<float>& out) {
+    constexpr int kRows = 16;  // a task
     parallelFor(static_cast<std::size_t>((grid.rows() + kRows - 1) / kRows), threads, [&](std::size_t task) {
         const int first = static_cast<int>(task) * kRows, last = std::min(first + kRows, grid.rows());
         float values[kSweepLanes];
-        for (int y = first; y < last; ++y)
-            for (int x = 0; x < grid.columns(); x += kSweepLanes) {
-                sweep(x, y, values);
+        for (int x = 0; x < grid.columns(); x += kSweepLanes) {
+            SweepHints hints;
+            for (int y = first; y < last; ++y) {
+                sweep(x, y, hints, values);
                 for (int i = 0; i < kSweepLanes && x + i < grid.columns(); ++i) {
                     const std::ptrdiff_t to = grid.source(x + i, y);
                     if (to >= 0) out[static_cast<std::size_t>(to)] = values[i];
                 }
             }
+        }
     });
 }
 
