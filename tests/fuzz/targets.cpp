@@ -14,6 +14,7 @@
 #include "core/error.hpp"
 #include "core/file.hpp"
 #include "core/image_file.hpp"
+#include "core/tiff_scan.hpp"
 #include "envmaps/env_asset.hpp"
 #include "envmaps/source.hpp"
 #include "factorize/factored_brdf.hpp"
@@ -69,6 +70,8 @@ static void readAsMap(const ImageFile& file) {
 static void readExrBytes(std::span<const std::uint8_t> bytes) { readAsMap(parseExrImage(bytes, "input")); }
 static void readRadianceBytes(std::span<const std::uint8_t> bytes) { readAsMap(parseRadianceImage(bytes, "input")); }
 
+static void readTiffBytes(std::span<const std::uint8_t> bytes) { scanTiff(bytes, "input"); }
+
 /// Feeds a reader of lines.
 template <typename Reader, typename Item>
 static void readLines(std::span<const std::uint8_t> bytes) {
@@ -83,15 +86,12 @@ static void readLines(std::span<const std::uint8_t> bytes) {
 }
 
 const std::vector<FuzzTarget>& fuzzTargets() {
-    static const std::vector<FuzzTarget> targets = {{"asset", readAssetBytes},
-                                                    {"merl", readMerlBytes},
-                                                    {"rgl", readRglBytes},
-                                                    {"samples", readSamplesText},
-                                                    {"model", readModelText},
-                                                    {"directions", readLines<cli::DirectionReader, DirectionPair>},
-                                                    {"exr", readExrBytes},
-                                                    {"radiance", readRadianceBytes},
-                                                    {"env_queries", readLines<cli::EnvQueryReader, cli::EnvQuery>}};
+    static const std::vector<FuzzTarget> targets = {
+        {"asset", readAssetBytes}, {"merl", readMerlBytes},
+        {"rgl", readRglBytes},     {"samples", readSamplesText},
+        {"model", readModelText},  {"directions", readLines<cli::DirectionReader, DirectionPair>},
+        {"exr", readExrBytes},     {"radiance", readRadianceBytes},
+        {"tiff", readTiffBytes},   {"env_queries", readLines<cli::EnvQueryReader, cli::EnvQuery>}};
     return targets;
 }
 
