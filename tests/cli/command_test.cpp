@@ -41,6 +41,7 @@ TEST(CommandUsage, HelpOfEveryVerbGoesToStandardOutput) {
     for (const std::vector<std::string>& words : {std::vector<std::string>{"--help"},
                                                   {"factorize", "--help"},
                                                   {"envmap", "--help"},
+                                                  {"bump", "--help"},
                                                   {"info", "--help"},
                                                   {"eval", "--help"},
                                                   {"models", "--help"},
@@ -56,7 +57,8 @@ TEST(CommandUsage, HelpOfEveryVerbGoesToStandardOutput) {
 
 TEST(CommandUsage, WrongUsageIsExitTwo) {
     const Scratch scratch;
-    expectFailure(nacre({}), 2, {"expected a verb", "factorize, envmap, fresnel, sh, info, eval, models, methods"});
+    expectFailure(nacre({}), 2,
+                  {"expected a verb", "factorize, envmap, bump, fresnel, sh, info, eval, models, methods"});
     expectFailure(nacre({"frobnicate"}), 2, {"'frobnicate'", "factorize"});
     expectFailure(nacre({"factorize", "lambert"}), 2, {"--output is required"});
     expectFailure(nacre({"info"}), 2, {"file"});

@@ -8,7 +8,9 @@
 #include <stdexcept>
 #include <string_view>
 
+#include "bump/bump_lookup.hpp"
 #include "cli/direction_lines.hpp"
+#include "cli/eval_bump.hpp"
 #include "cli/eval_environment.hpp"
 #include "core/asset.hpp"
 #include "core/error.hpp"
@@ -31,6 +33,14 @@ static void requireDefined(const Rgb& value, const char* what) {
     if (!isFinite(value)) throw std::logic_error(std::string(what) + ": f is not finite");
 }
 
+/// What the shaders' lookups make of maps that were read.
+static void askBump(const BumpMaps& maps) {
+    const double u = 0.3, v = -7.1;
+    if (maps.ellipses || maps.horizons) litMargin(maps, u, v, kIn);
+    if (maps.normals) requireDefined(normalAt(maps, u, v), "bump");
+    if (maps.scatter && !std::isfinite(seenFrom(maps, u, v, kIn).uv.x)) throw std::logic_error("a point seen nowhere");
+}
+
 static void readAssetBytes(std::span<const std::uint8_t> bytes) {
     const Asset asset = parseAsset(bytes, "input");
     if (asset.kind == "environment") {
@@ -38,6 +48,7 @@ static void readAssetBytes(std::span<const std::uint8_t> bytes) {
         requireDefined(sampleChain(chain, kOut, chain.mapping ? lodOf(*chain.mapping, 0.3) : 0), "environment");
         return;
     }
+    if (asset.kind == "bump") return askBump(bumpFromAsset(asset, "input"));
     const FactoredBrdf brdf = factoredFromAsset(asset, "input");
     evaluate(brdf, kIn, kOut);
 }
@@ -86,12 +97,17 @@ static void readLines(std::span<const std::uint8_t> bytes) {
 }
 
 const std::vector<FuzzTarget>& fuzzTargets() {
-    static const std::vector<FuzzTarget> targets = {
-        {"asset", readAssetBytes}, {"merl", readMerlBytes},
-        {"rgl", readRglBytes},     {"samples", readSamplesText},
-        {"model", readModelText},  {"directions", readLines<cli::DirectionReader, DirectionPair>},
-        {"exr", readExrBytes},     {"radiance", readRadianceBytes},
-        {"tiff", readTiffBytes},   {"env_queries", readLines<cli::EnvQueryReader, cli::EnvQuery>}};
+    static const std::vector<FuzzTarget> targets = {{"asset", readAssetBytes},
+                                                    {"merl", readMerlBytes},
+                                                    {"rgl", readRglBytes},
+                                                    {"samples", readSamplesText},
+                                                    {"model", readModelText},
+                                                    {"directions", readLines<cli::DirectionReader, DirectionPair>},
+                                                    {"exr", readExrBytes},
+                                                    {"radiance", readRadianceBytes},
+                                                    {"tiff", readTiffBytes},
+                                                    {"env_queries", readLines<cli::EnvQueryReader, cli::EnvQuery>},
+                                                    {"bump_queries", readLines<cli::BumpQueryReader, cli::BumpQuery>}};
     return targets;
 }
 
