@@ -13,7 +13,7 @@ namespace {
 
 constexpr int kFewestDirections = 32, kFewestAzimuths = 8, kMostAzimuths = 256;
 
-/// One object of times. \param things  how many horizons or rays there were; 0 = neither
+/// One object of times. \param things  how many texels, horizons or rays there were; 0 = not told
 json timesOf(const Stopwatch& watch, const char* rate, double things) {
     json out = {{"seconds", watch.seconds()}, {"cpu_seconds", watch.cpuSeconds()}};
     if (things > 0) out[rate] = things / std::max(watch.seconds(), 1e-9);
@@ -34,11 +34,10 @@ struct Shadows {
 void bakeShadows(const HeightMap& map, const BumpRequest& request, const Shadows& shadows, BumpBake& out) {
     if (shadows.directions > 0) {
         const Stopwatch watch;
-        EllipseOptions options = request.fit;
-        options.directions = shadows.directions;
-        options.threads = request.threads;
-        out.maps.ellipses = fitEllipses(map, options);
-        out.times["ellipses"] = timesOf(watch, "horizons_per_second", texels(map) * shadows.directions);
+        out.fit = request.fit;
+        out.fit.directions = shadows.directions;
+        out.maps.ellipses = fitEllipses(map, out.fit);
+        out.times["ellipses"] = timesOf(watch, "texels_per_second", texels(map));
     }
     if (shadows.azimuths > 0) {
         const Stopwatch watch;
@@ -118,6 +117,7 @@ BumpMaps asStored(const BumpMaps& maps, TexelFormat format, const std::string& o
 BumpBake bakeBump(const HeightMap& map, const BumpRequest& request, const std::string& output,
                   const Progress& progress) {
     BumpBake out;
+    out.fit = request.fit;
     out.maps.width = map.width();
     out.maps.height = map.height();
     out.maps.wrap = map.wrap;

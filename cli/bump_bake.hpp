@@ -23,9 +23,10 @@ struct BumpRequest {
 };
 
 struct BumpBake {
-    BumpMaps maps;  ///< as baked; what is stored is rounded
+    EllipseOptions fit;  ///< of maps.ellipses: a budget chooses its directions
+    BumpMaps maps;       ///< as baked; what is stored is rounded
     nlohmann::json times =
-        nlohmann::json::object();  ///< one object a technique: seconds, cpu_seconds, horizons or rays a second
+        nlohmann::json::object();  ///< one object a technique: seconds, cpu_seconds, texels, horizons or rays a second
     double seconds = 0, cpuSeconds = 0;
     double searchSeconds = 0;  ///< of bakes and measurements that a budget has made and left
 };

@@ -64,8 +64,7 @@ BumpRequest requestOf(const Settings& s) {
     return out;
 }
 
-void describe(json& meta, const Context& context, const Settings& s, const BumpRequest& request,
-              const HeightField& field, const BumpBake& bake) {
+void describe(json& meta, const Context& context, const Settings& s, const HeightField& field, const BumpBake& bake) {
     const HeightReport& r = field.report;
     const HeightRange range = heightRange(field.map);
     meta["source"] = s.source;
@@ -80,12 +79,12 @@ void describe(json& meta, const Context& context, const Settings& s, const BumpR
     meta["format"] = s.format;
     meta["command_line"] = context.commandLine;
     if (bake.maps.ellipses)
-        meta["ellipse_fit"] = {{"fit", request.fit.fit == EllipseFit::Radii ? "radii" : "full"},
-                               {"directions", request.fit.directions}};
+        meta["ellipse_fit"] = {{"fit", bake.fit.fit == EllipseFit::Radii ? "radii" : "full"},
+                               {"directions", bake.fit.directions}};
     meta["times"] = bake.times;
     meta["seconds"] = bake.seconds;
     meta["cpu_seconds"] = bake.cpuSeconds;
-    if (request.maxError) meta["search_seconds"] = bake.searchSeconds;
+    if (s.wanted.maxError) meta["search_seconds"] = bake.searchSeconds;
 }
 
 std::string rateText(const json& meta, const char* technique, const char* rate, const char* what) {
@@ -111,7 +110,7 @@ std::string summaryText(const Settings& s, const json& meta) {
         text += fmt::format("  ellipses  {} directions  misjudged {:.4g} (radii only {:.4g}, all lit {:.4g})",
                             meta["ellipse_fit"]["directions"].get<int>(), number(e, "misjudged"),
                             number(e, "misjudged_radii_only"), number(e, "dark"));
-        text += rateText(meta, "ellipses", "horizons_per_second", "horizons");
+        text += rateText(meta, "ellipses", "texels_per_second", "texels");
     }
     if (error.contains("horizon")) {
         const json& e = error["horizon"];
@@ -147,11 +146,11 @@ void runBump(const Context& context, const Settings& s) {
     const double readSeconds = reading.seconds();
     const BumpBake bake = bakeBump(field.map, request, s.output, progress);
     Asset asset = toAsset(bake.maps, request.format);
-    describe(asset.meta, context, s, request, field, bake);
+    describe(asset.meta, context, s, field, bake);
     asset.meta["read_seconds"] = readSeconds;
     const Stopwatch measuring;
     // What is measured is what a reader gets.
-    asset.meta["error"] = measureBump(field.map, bumpFromAsset(asset, s.output), request.fit, request.format, progress);
+    asset.meta["error"] = measureBump(field.map, bumpFromAsset(asset, s.output), bake.fit, request.format, progress);
     asset.meta["measure_seconds"] = measuring.seconds();
     endProgress();
     writeAsset(asset, s.output);

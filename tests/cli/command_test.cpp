@@ -347,11 +347,11 @@ TEST(CommandInfo, FormAndKindOfALaterVersion) {  // shown, but not as if they co
         EXPECT_THAT(outcome.err, AllOf(HasSubstr("unknown factored form 'neural_lobe'"), HasSubstr("can't use")));
     }
     expectFailure(nacre({"eval", form}), 1, {"b.exr", "unknown factored form 'neural_lobe'", "single_lobe"});
-    const std::string kind = relabelled(scratch, "\"kind\": \"brdf\"", "\"kind\": \"bump\"").string();
+    const std::string kind = relabelled(scratch, "\"kind\": \"brdf\"", "\"kind\": \"glow\"").string();
     const Outcome outcome = nacre({"info", kind});
-    EXPECT_THAT(outcome.out, HasSubstr("bump"));
-    EXPECT_THAT(outcome.err, AllOf(HasSubstr("does not know the kind 'bump'"), HasSubstr("can't use")));
-    expectFailure(nacre({"eval", kind}), 1, {"expected an asset of kind brdf, found bump"});
+    EXPECT_THAT(outcome.out, HasSubstr("glow"));
+    EXPECT_THAT(outcome.err, AllOf(HasSubstr("does not know the kind 'glow'"), HasSubstr("can't use")));
+    expectFailure(nacre({"eval", kind}), 1, {"expected an asset of kind brdf, found glow"});
 }
 
 TEST(CommandInfo, UsableAssetIsShownWithoutComplaint) {
