@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "cli/output_file.hpp"
+#include "core/asset_exr.hpp"
 #include "core/error.hpp"
 
 namespace nacre::cli {
@@ -108,6 +109,22 @@ void bakeTheRest(const HeightMap& map, const BumpRequest& request, const Progres
     if (request.heights) out.maps.heights = map.heights;
 }
 
+/// What an asset file holds at most, before the work rather than after it.
+void requireFits(const HeightMap& map, const BumpRequest& request, const std::string& output) {
+    std::size_t textures =
+        (request.horizon + 3) / 4 + (request.scatter + 3) / 4 + (request.ellipses ? 2 : 0) + (request.heights ? 1 : 0);
+    if (request.normals)
+        for (int edge = std::max(map.width(), map.height()); edge > 0; edge /= 2) ++textures;
+    const double layers = request.horizon + request.scatter + (request.ellipses ? 6 : 0) + (request.heights ? 1 : 0) +
+                          (request.normals ? (request.roughness ? 4 : 3) * 4 / 3.0 : 0);
+    const double values = layers * texels(map);
+    if (textures > exr::kMaxParts || values > static_cast<double>(exr::kMaxValues))
+        throw Error(
+            fmt::format("{}: expected at most {} textures of {} values together, found {} of {:.0f} (fewer "
+                        "outputs, azimuths or directions take less)",
+                        output, exr::kMaxParts, exr::kMaxValues, textures, values));
+}
+
 }  // namespace
 
 BumpMaps asStored(const BumpMaps& maps, TexelFormat format, const std::string& output) {
@@ -116,6 +133,7 @@ BumpMaps asStored(const BumpMaps& maps, TexelFormat format, const std::string& o
 
 BumpBake bakeBump(const HeightMap& map, const BumpRequest& request, const std::string& output,
                   const Progress& progress) {
+    requireFits(map, request, output);
     BumpBake out;
     out.fit = request.fit;
     out.maps.width = map.width();

@@ -180,6 +180,8 @@ TEST(CommandBump, BudgetsChooseOrSayHowNearTheyCame) {
     expectFailure(nacre(bake(source, scratch / "b.exr", {"--horizon", "9", "--max-error", "1e-9"})), 1,
                   {"b.exr: expected at most 1e-09 of shadows misjudged", "found", "azimuths"});
     expectFailure(nacre(bake(source, scratch / "b.exr", {"--max-bytes", "1000"})), 1, {"at most 1000 bytes", "found"});
+    expectFailure(nacre(bake(source, scratch / "b.exr", {"--scatter", "256", "--heights"})), 1,
+                  {"b.exr: expected at most 64 textures", "found 65"});
     EXPECT_FALSE(std::filesystem::exists(scratch / "b.exr"));
 }
 
