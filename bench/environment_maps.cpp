@@ -59,7 +59,7 @@ SurroundingList benchSurroundings() {
 
 SurroundingList benchSurroundings(const std::vector<fs::path>& folders) {
     SurroundingList out;
-    out.surroundings.push_back({"synthetic", syntheticSurrounding()});
+    out.surroundings.push_back({kSyntheticName, syntheticSurrounding()});
     for (const std::string name : {"forest", "studio", "city"}) {
         const auto folder = std::find_if(folders.begin(), folders.end(),
                                          [&](const fs::path& f) { return fs::is_regular_file(f / (name + ".exr")); });

@@ -19,6 +19,8 @@ struct SurroundingList {
     std::vector<std::string> notes;  ///< what was missing or mended
 };
 
+inline constexpr const char* kSyntheticName = "synthetic";
+
 /// Sky, ground, a rectangular lamp and a sun of one texel at 26 000 times the mean: what no file is needed for.
 EnvMap syntheticSurrounding(int size = 256);
 

@@ -91,6 +91,38 @@ Plot plotOf(const Measurements& all, Chain chain, int size) {
     return plot;
 }
 
+/// The maps that more than one method was measured on, so that every point of a plot is the median of the same.
+Measurements comparable(const Measurements& all) {
+    Measurements out;
+    for (const EnvironmentMeasurement* m : all)
+        if (std::any_of(all.begin(), all.end(), [m](const EnvironmentMeasurement* o) {
+                return o->surrounding == m->surrounding && o->method != m->method;
+            }))
+            out.push_back(m);
+    return out.empty() ? all : out;
+}
+
+/// A size's maps, and how many texels a level its errors are of: "128: city, forest (64 texels a level)".
+std::string scopeOf(const std::vector<EnvironmentMeasurement>& measurements, int size) {
+    std::set<std::string> names;
+    int low = 0, high = 0;
+    for (const Chain chain : kChains) {
+        Measurements list;
+        for (const EnvironmentMeasurement& m : measurements)
+            if (m.sourceSize == size && m.chain == chain) list.push_back(&m);
+        for (const EnvironmentMeasurement* m : comparable(list)) {
+            names.insert(escaped(m->surrounding));
+            for (const LevelMeasurement& level : m->levels) {
+                if (level.error.samples == 0) continue;  // a mirror
+                low = low == 0 ? level.error.samples : std::min(low, level.error.samples);
+                high = std::max(high, level.error.samples);
+            }
+        }
+    }
+    return fmt::format("{}: {} ({} texels a level)", size, fmt::join(names, ", "),
+                       low == high ? std::to_string(high) : fmt::format("{} to {}", low, high));
+}
+
 std::string measurementTable(const std::vector<EnvironmentMeasurement>& measurements) {
     std::string rows;
     for (const EnvironmentMeasurement& m : measurements) {
@@ -112,25 +144,27 @@ std::string measurementTable(const std::vector<EnvironmentMeasurement>& measurem
 
 std::string environmentSection(const std::vector<EnvironmentMeasurement>& measurements) {
     if (measurements.empty()) return {};
-    std::set<std::string> surroundings;
+    std::set<int> sizes;
     std::set<std::pair<int, Chain>> plots;
     for (const EnvironmentMeasurement& m : measurements)
-        surroundings.insert(m.surrounding), plots.emplace(m.sourceSize, m.chain);
-    std::string names;
-    for (const std::string& name : surroundings) names += (names.empty() ? "" : ", ") + escaped(name);
+        sizes.insert(m.sourceSize), plots.emplace(m.sourceSize, m.chain);
+    std::string scope;
+    for (const int size : sizes) scope += (scope.empty() ? "" : "; ") + scopeOf(measurements, size);
     std::string out =
         "<h2>Prefiltered environments</h2>\n<p>Each point is one method at one setting on a whole chain: CPU time of "
         "all threads against the error of its worst level, root mean square over random texels as a share of their "
-        "mean, against the sum over every source texel in double precision. Maps: " +
-        names +
-        ". Importance sampling and sums over a reduced source are plain comparators written here; what they take "
+        "mean, against the sum over every source texel in double precision. Maps of each source's edge: " +
+        scope +
+        ". Larger sources are measured on fewer maps, at fewer texels and settings, and a GPU that the CPU draws at "
+        "coarser ones: a truth or a chain would take minutes. Importance sampling and sums over a reduced source are "
+        "plain comparators written here; what they take "
         "for all texels is projected from those that were measured. Ringed: what a tool of the kind does when nothing "
         "is said.</p>\n<div class=\"plots\">\n";
     for (const auto& [size, chain] : plots) {
         Measurements list;
         for (const EnvironmentMeasurement& m : measurements)
             if (m.sourceSize == size && m.chain == chain) list.push_back(&m);
-        out += svgPlot(plotOf(list, chain, size));
+        out += svgPlot(plotOf(comparable(list), chain, size));
     }
     return out + "</div>\n" + measurementTable(measurements);
 }

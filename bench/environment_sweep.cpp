@@ -170,34 +170,73 @@ int affordableSamples(int samples, int sourceSize) {
     return std::max(std::min(samples, 16), static_cast<int>(samples * share));
 }
 
+SweepPlan sweepPlan(int size, bool quick, bool slowGpu) {
+    SweepPlan plan;
+    if (quick) {
+        plan = {24, false, {1e-2, 6e-4}, {64, 1024}, {8}, {}};
+    } else if (size <= 256) {
+        plan = {64, true, {3e-2, 1e-2, 3e-3, 6e-4, 1e-4}, {64, 256, 1024, 4096}, {2, 4, 8, 16}, {}};
+    } else {
+        plan = {64, false, {3e-2, 6e-4, 1e-4}, {64, 256, 1024}, {1, 2, 4, 8}, {}};
+    }
+    plan.samples = affordableSamples(plan.samples, size);
+    const int largestReduced = size <= 256 ? 128 : 64;
+    for (int reduced = 16; reduced < size && reduced <= largestReduced; reduced *= 2)
+        plan.reducedSizes.push_back(reduced);
+    constexpr double kDrawnByCpu = 1024;  // detail times size: more takes a CPU that draws a minute a chain
+    if (slowGpu) std::erase_if(plan.details, [&](double d) { return d * size > kDrawnByCpu; });
+    return plan;
+}
+
+std::vector<BenchSurrounding> decidingSurroundings(const std::vector<BenchSurrounding>& all) {
+    std::vector<BenchSurrounding> out;
+    std::copy_if(all.begin(), all.end(), std::back_inserter(out),
+                 [](const BenchSurrounding& s) { return s.name != kSyntheticName; });
+    return out.empty() ? all : out;
+}
+
+static void measureMethods(const ChainTruth& truth, const SweepPlan& plan, const EnvironmentSweepOptions& options,
+                           std::vector<EnvironmentMeasurement>& out) {
+    const auto say = [&](const std::string& method) {
+        report(options.progress,
+               fmt::format("{} on {} {}: {}", method, toString(truth.chain), truth.source.size(), truth.surrounding),
+               0);
+    };
+    for (const double tolerance : plan.tolerances) {
+        say(fmt::format("nacre, tolerance {:g}", tolerance));
+        out.push_back(measurePrefilter(truth, tolerance));
+    }
+    for (const bool filtered : {true, false})
+        for (const int count : plan.counts) {
+            say(fmt::format("importance, {} samples", count));
+            out.push_back(measureImportance(truth, count, filtered));
+        }
+    for (const int reduced : plan.reducedSizes) {
+        say(fmt::format("sums over a source reduced to {}", reduced));
+        out.push_back(measureReducedSums(truth, reduced));
+    }
+    if (!options.gpu) return;
+    for (const double detail : plan.details) {
+        say(fmt::format("GPU, detail {:g}", detail));
+        out.push_back(options.gpu->measure(truth, detail));
+    }
+}
+
 std::vector<EnvironmentMeasurement> sweepEnvironments(const std::vector<BenchSurrounding>& surroundings,
                                                       const EnvironmentSweepOptions& options) {
     const std::vector<int> sizes = !options.sizes.empty() ? options.sizes
                                    : options.quick        ? std::vector{128}
                                                           : std::vector{128, 256, 512, 1024};
-    const std::vector<double> tolerances =
-        options.quick ? std::vector{1e-2, 6e-4} : std::vector{3e-2, 1e-2, 3e-3, 6e-4, 1e-4};
-    const std::vector<int> counts = options.quick ? std::vector{64, 1024} : std::vector{64, 256, 1024, 4096};
-    const std::size_t maps = options.quick ? std::min<std::size_t>(1, surroundings.size()) : surroundings.size();
-    const std::vector<double> details = options.quick ? std::vector{8.0} : std::vector{2.0, 4.0, 8.0, 16.0};
-    constexpr int kLargestDrawnByCpu = 256;  // beyond it a chain takes a CPU minutes
     const bool slowGpu = options.gpu && options.gpu->drawnByCpu();
     std::vector<EnvironmentMeasurement> out;
-    for (const int size : sizes)
+    for (const int size : sizes) {
+        const SweepPlan plan = sweepPlan(size, options.quick, slowGpu);
+        std::vector<BenchSurrounding> maps = plan.everyMap ? surroundings : decidingSurroundings(surroundings);
+        if (options.quick) maps = {surroundings.front()};
         for (const Chain chain : kChains)
-            for (std::size_t i = 0; i < maps; ++i) {
-                const ChainTruth truth = drawChainTruth(
-                    surroundings[i], chain, size, affordableSamples(options.quick ? 24 : 100, size), options.progress);
-                report(options.progress, fmt::format("methods on {} {}: {}", toString(chain), size, truth.surrounding),
-                       0);
-                for (const double tolerance : tolerances) out.push_back(measurePrefilter(truth, tolerance));
-                for (const bool filtered : {true, false})
-                    for (const int count : counts) out.push_back(measureImportance(truth, count, filtered));
-                if (options.gpu && !(slowGpu && size > kLargestDrawnByCpu))
-                    for (const double detail : details) out.push_back(options.gpu->measure(truth, detail));
-                for (int reduced = 16; reduced < size && reduced <= 128; reduced *= 2)
-                    out.push_back(measureReducedSums(truth, reduced));
-            }
+            for (const BenchSurrounding& map : maps)
+                measureMethods(drawChainTruth(map, chain, size, plan.samples, options.progress), plan, options, out);
+    }
     return out;
 }
 

@@ -71,7 +71,23 @@ struct EnvironmentSweepOptions {
     EnvironmentGpu* gpu = nullptr;  ///< null: no OpenGL, no curve of it
     Progress progress{};
 };
-/// Every method at every setting on every chain and size.
+/// What is measured of a source of one size.
+struct SweepPlan {
+    int samples = 0;        ///< a level
+    bool everyMap = false;  ///< or the deciding ones
+    std::vector<double> tolerances;
+    std::vector<int> counts;
+    std::vector<double> details;  ///< of the GPU
+    std::vector<int> reducedSizes;
+};
+/// Everything up to 256; beyond, where a truth and a chain take up to a minute, fewer settings on the deciding maps.
+/// \param slowGpu  drawn by the CPU: coarser settings the larger the source
+SweepPlan sweepPlan(int size, bool quick, bool slowGpu);
+
+/// The measured maps, without the synthetic one unless it is all there is.
+std::vector<BenchSurrounding> decidingSurroundings(const std::vector<BenchSurrounding>& all);
+
+/// Every method at every setting of the plan on every chain and size. A full run takes about ten minutes on two cores.
 std::vector<EnvironmentMeasurement> sweepEnvironments(const std::vector<BenchSurrounding>& surroundings,
                                                       const EnvironmentSweepOptions& options);
 

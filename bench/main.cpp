@@ -70,6 +70,14 @@ bool isMeasured(const std::vector<Measurement>& list, const Material& material, 
     });
 }
 
+/// By the promised figures, at more texels.
+bool isMeasured(const std::vector<EnvironmentMeasurement>& list, const EnvironmentMeasurement& m) {
+    return std::any_of(list.begin(), list.end(), [&](const EnvironmentMeasurement& o) {
+        return o.surrounding == m.surrounding && o.chain == m.chain && o.sourceSize == m.sourceSize &&
+               o.method == m.method && o.setting == m.setting;
+    });
+}
+
 /// Every setting of one material that isn't measured yet. A setting that gives what an earlier one of the method gave
 /// is dropped.
 void sweep(const Material& material, bool quick, GpuLab* lab, const Progress& progress, std::vector<Measurement>& out) {
@@ -136,7 +144,7 @@ void runEnvironment(const Arguments& arguments, const Progress& progress, Report
     if (gpu && report.renderer.empty()) report.renderer = gpu->description();
     for (EnvironmentMeasurement& m : sweepEnvironments(
              list.surroundings, {arguments.quick, arguments.sourceSizes, gpu ? &*gpu : nullptr, progress}))
-        report.environments.push_back(std::move(m));
+        if (!isMeasured(report.environments, m)) report.environments.push_back(std::move(m));
 }
 
 int run(const Arguments& arguments) {

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <limits>
+
 #include "core/error.hpp"
 
 namespace nacre {
@@ -35,7 +37,8 @@ void validateHeightMap(const HeightMap& map) {
     require(!map.heights.empty() && map.heights.channels() == 1, "height map: expected one channel of heights");
     for (int y = 0; y < map.height(); ++y)
         for (int x = 0; x < map.width(); ++x)
-            require(!std::isinf(map.heights.at(x, y, 0)),
+            if (std::isinf(map.heights.at(x, y, 0)))
+                throw std::invalid_argument(
                     fmt::format("height map: expected finite heights or NaN, found infinity at ({}, {})", x, y));
 }
 
@@ -53,15 +56,14 @@ double heightAt(const HeightMap& map, const Vec2& p) {
 }
 
 HeightRange heightRange(const HeightMap& map) {
-    HeightRange out;
-    bool any = false;
-    for (const float z : map.heights.data()) {
-        if (std::isnan(z)) continue;
-        out.low = any ? std::min<double>(out.low, z) : z;
-        out.high = any ? std::max<double>(out.high, z) : z;
-        any = true;
+    constexpr float kInfinity = std::numeric_limits<float>::infinity();
+    float low = kInfinity, high = -kInfinity;
+    for (const float z : map.heights.data()) {  // comparisons with NaN are false
+        low = z < low ? z : low;
+        high = z > high ? z : high;
     }
-    return out;
+    if (low > high) return {};
+    return {low, high};
 }
 
 }  // namespace nacre

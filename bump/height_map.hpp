@@ -20,10 +20,10 @@ Wrap wrapFromString(const std::string& name);
 int wrapIndex(int i, int n, Wrap wrap);
 
 /// The surface: positions p = (x, y) in texels, x along columns (tangent, u = x/width), y along rows from row 0
-/// (bitangent, v = y/height), z out of the surface; texel (i, j) is the point (i + 0.5, j + 0.5, heights(i, j)). Between
-/// four texel centres the surface is their bilinear patch. Heights are in texel edges too (height / texel size), so
-/// slopes and angles are those of the real relief.
-/// A NaN is a hole: patches with a hole at a corner don't exist, nothing there blocks a ray or is hit.
+/// (bitangent, v = y/height), z out of the surface; texel (i, j) is the point (i + 0.5, j + 0.5, heights(i, j)).
+/// Between four texel centres the surface is their bilinear patch. Heights are in texel edges too (height / texel
+/// size), so slopes and angles are those of the real relief. A NaN is a hole: patches with a hole at a corner don't
+/// exist, nothing there blocks a ray or is hit.
 struct HeightMap {
     Image heights;  ///< one channel, finite or NaN
     Wrap wrap = Wrap::Repeat;
@@ -31,9 +31,7 @@ struct HeightMap {
     int width() const { return heights.width(); }
     int height() const { return heights.height(); }
     /// Height of texel (i, j), any i and j.
-    float at(int i, int j) const {
-        return heights.at(wrapIndex(i, width(), wrap), wrapIndex(j, height(), wrap), 0);
-    }
+    float at(int i, int j) const { return heights.at(wrapIndex(i, width(), wrap), wrapIndex(j, height(), wrap), 0); }
 };
 
 /// \throws std::invalid_argument for an empty map, more channels than one, infinite heights

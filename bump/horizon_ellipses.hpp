@@ -27,7 +27,7 @@ enum class EllipseFit {
 };
 
 struct EllipseOptions {
-    int directions = 128;  ///< azimuths of exact horizons that a texel's fit sees, ≥ 8; each tells all elevations
+    int directions = 128;  ///< azimuths whose exact horizons a fit sees, ≥ 8; rounded up to a multiple of 16
     EllipseFit fit = EllipseFit::Full;
     unsigned threads = 0;  ///< same bits for any
 };

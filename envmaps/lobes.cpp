@@ -31,27 +31,33 @@ double beckmann(double alpha, double sinH, double cosH) {
 
 using Distribution = double (*)(double, double, double);
 
+/// θh beyond which Beckmann is below 1e-17: without an end, a lobe narrower than a texel would be given to harmonics,
+/// whose rounding drowns it (isDirectBetter in prefilter.cpp).
+double endOf(Distribution d, double alpha) { return d == beckmann ? std::atan(alpha * std::sqrt(40.0)) : kPi / 2; }
+
 ZonalKernel reflection(Distribution d, double alpha) {
     const auto value = [=](double theta) {
         return theta < kPi / 2 ? d(alpha, std::sin(theta / 2), std::cos(theta / 2)) * std::cos(theta) : 0.0;
     };
-    return {value, 2 * alpha, kPi / 2};
+    return {value, 2 * alpha, std::min(kPi / 2, 2 * endOf(d, alpha))};
 }
 
-/// θ = |θh − θt| with sinθt = sinθh/ior, solved for θh: tanθh = sinθ / |cosθ − 1/ior|.
+/// θ = |θh − θt| with sinθt = sinθh/ior, solved for θh. With b = 1 − 1/ior, c = 2(1 − cosθ) and q² = b² + c/ior,
+///   q sinθh = sinθ,  q cosθh = |b − c/2|,  q cosθt = |b + c/(2 ior)|,  cosθt · dθ/dθh = q,
+/// where nothing is lost by an index near 1. Scaled to 1 at θ = 0.
 ZonalKernel refraction(Distribution d, double alpha, double ior) {
-    const double inverse = 1 / ior;
-    const double support = kPi / 2 - std::asin(std::min(ior, inverse));  // grazing facet, or total reflection
+    const double inverse = 1 / ior, bend = (ior - 1) / ior;
+    const double edge = kPi / 2 - std::asin(std::min(ior, inverse));  // grazing facet, or total reflection
+    const double thetaH = endOf(d, alpha), sinT = std::sin(thetaH) * inverse;
+    const double support = sinT < 1 ? std::min(edge, std::abs(thetaH - std::asin(sinT))) : edge;
     const auto value = [=](double theta) {
         if (theta >= support) return 0.0;
-        const double slope = std::abs(std::cos(theta) - inverse), sine = std::sin(theta);
-        const double length = std::hypot(slope, sine), sinH = sine / length, cosH = slope / length;
-        const double cosT = std::sqrt(std::max(0.0, 1 - sqr(sinH * inverse)));
-        const double slowness = std::abs(cosT - cosH * inverse);  // cosθt · dθ/dθh
-        if (!(slowness > 0)) return 0.0;
-        return d(alpha, sinH, cosH) * cosH * cosT / (length * slowness) * std::cos(theta);  // sinθh/sinθ = 1/length
+        const double c = 4 * sqr(std::sin(theta / 2)), q = std::sqrt(sqr(bend) + inverse * c);
+        const double sinH = std::sin(theta) / q, cosH = std::abs(bend - c / 2) / q;
+        const double cosT = std::abs(bend + inverse * c / 2) / q;
+        return sqr(bend / q) * d(alpha, sinH, cosH) * cosH * cosT * std::cos(theta);
     };
-    return {value, std::min(alpha, 1.0) * std::abs(1 - inverse), support};
+    return {value, std::min(alpha, 1.0) * std::abs(bend), support};
 }
 
 struct Nodes {

@@ -13,10 +13,10 @@
 namespace nacre {
 namespace {
 
-constexpr int kBlock = 8;         // edge of the least that is drawn at once [texels]
-constexpr double kTail = 1e-8;    // of the lobe's largest value: beyond, Phong and Beckmann are left out
-constexpr double kUnseen = 1e-9;  // as in envmaps/prefilter.cpp
-constexpr double kWidest = 1;     // no lobe is read more coarsely than one of this width [rad]
+constexpr int kBlock = 8;           // edge of the least that is drawn at once [texels]
+constexpr double kTail = 1e-8;      // of the lobe's largest value: beyond, Phong and Beckmann are left out
+constexpr int kIterations = 60000;  // llvmpipe silently leaves loops after 65535 steps of all loops together
+constexpr double kUnseen = 1e-9;    // as in envmaps/prefilter.cpp
 
 /// OpenGL's faces (OpenGL 4.6, table 8.19): columns s, t, middle.
 const std::array<glm::mat3, 6> kGlFaces{{{0, 0, -1, 0, -1, 0, 1, 0, 0},
@@ -31,8 +31,9 @@ glm::ivec2 glTexel(int face, int size, int x, int y) {
     return face == 2 || face == 3 ? glm::ivec2(x, size - 1 - y) : glm::ivec2(size - 1 - x, y);
 }
 
-const char* lobeDefine(LobeKind kind) {
-    switch (kind) {
+const char* lobeDefine(const Lobe& lobe) {
+    if (isMirror(lobe)) return "NACRE_PREFILTER_MIRROR";
+    switch (lobe.kind) {
         case LobeKind::Mirror:
             return "NACRE_PREFILTER_MIRROR";
         case LobeKind::Diffuse:
@@ -43,11 +44,14 @@ const char* lobeDefine(LobeKind kind) {
             return "NACRE_PREFILTER_GGX";
         case LobeKind::Beckmann:
             return "NACRE_PREFILTER_BECKMANN";
-        default:
-            break;
+        case LobeKind::GgxRefraction:
+            return "NACRE_PREFILTER_GGX_REFRACTION";
+        case LobeKind::BeckmannRefraction:
+            return "NACRE_PREFILTER_BECKMANN_REFRACTION";
+        case LobeKind::GgxAnisotropic:
+            return "NACRE_PREFILTER_GGX_ANISOTROPIC";
     }
-    throw std::invalid_argument("GpuPrefilter: expected mirror, diffuse, phong, ggx or beckmann, found " +
-                                toString(kind));
+    throw std::invalid_argument("GpuPrefilter: no such lobe");
 }
 
 double chord(double theta) { return 2 * std::sin(std::min(theta, kPi / 2) / 2); }
@@ -55,14 +59,31 @@ double chord(double theta) { return 2 * std::sin(std::min(theta, kPi / 2) / 2); 
 /// Chord beyond which the lobe is left out.
 double supportOf(const Lobe& lobe) {
     if (lobe.kind == LobeKind::Phong && lobe.exponent > 0) return chord(std::acos(std::pow(kTail, 1 / lobe.exponent)));
-    if (lobe.kind == LobeKind::Beckmann) return chord(2 * std::atan(lobe.alpha * std::sqrt(-std::log(kTail))));
-    return chord(kPi / 2);
+    const double tailSlope = lobe.alpha * std::sqrt(-std::log(kTail));  // where Beckmann's exponential is kTail
+    if (lobe.kind == LobeKind::Beckmann) return chord(2 * std::atan(tailSlope));
+    if (!isZonal(lobe.kind)) return chord(kPi / 2);
+    const double end = zonalKernel(lobe).support;
+    if (lobe.kind != LobeKind::BeckmannRefraction) return chord(end);
+    const double thetaH = std::atan(tailSlope), sinT = std::sin(thetaH) / lobe.ior;
+    return chord(sinT < 1 ? std::min(end, std::abs(thetaH - std::asin(sinT))) : end);
 }
 
-/// A hemisphere that ends sharply (Phong below 1) is as hard to sum as a lobe a quarter as wide.
+/// No lobe is read more coarsely than a cosine, of width 1, that ends as near. A hemisphere that ends sharply (Phong
+/// below 1) is as hard to sum as a lobe a quarter as wide.
 double widthOf(const Lobe& lobe) {
-    const double width = std::min(zonalKernel(lobe).width, kWidest);
+    if (lobe.kind == LobeKind::GgxAnisotropic) return std::min(2 * std::min(lobe.alpha, lobe.alphaY), 1.0);
+    const ZonalKernel kernel = zonalKernel(lobe);
+    const double width = std::min(kernel.width, chord(kernel.support) / std::sqrt(2.0));
     return lobe.kind == LobeKind::Phong && lobe.exponent < 1 ? width / 4 : width;
+}
+
+/// Steps of the shader's loops on a level of edge N, about: the share of its 6 N² texels that an ellipse holds, times
+/// what boxes around it and neighbours that are drawn together add (measured: up to 2.4).
+double stepsOn(const Lobe& lobe, int edge, double detail, bool last) {
+    const bool anisotropic = lobe.kind == LobeKind::GgxAnisotropic;
+    const double ratio = anisotropic ? std::max(lobe.alpha / lobe.alphaY, lobe.alphaY / lobe.alpha) : 1;
+    const double reach = std::min({1.0, supportOf(lobe), last ? 1 : 4 * detail / edge});
+    return 3 * 1.5 * sqr(edge) * reach * std::min(2.0, reach * ratio);
 }
 
 void validate(int sourceSize, const std::vector<PrefilterLevel>& levels, const GpuPrefilterOptions& options) {
@@ -72,7 +93,6 @@ void validate(int sourceSize, const std::vector<PrefilterLevel>& levels, const G
     require(!levels.empty(), "GpuPrefilter: expected one level or more");
     for (std::size_t k = 0; k < levels.size(); ++k) {
         validateLobe(levels[k].lobe);
-        lobeDefine(levels[k].lobe.kind);
         const int size = levels[0].size >> k;
         require(size >= 1 && levels[k].size == size,
                 fmt::format("GpuPrefilter: expected level {} of size {}, found {}", k, size, levels[k].size));
@@ -125,9 +145,10 @@ GpuPrefilter::GpuPrefilter(ProgramLoader& loader, int sourceSize, std::vector<Pr
     : sourceSize_(sourceSize), levels_(std::move(levels)), detail_(options.detail) {
     validate(sourceSize_, levels_, options);
     stripLevels_ = halvings(sourceSize_) + 1;
+    for (int k = 0; k < levelCount(); ++k) parts_.push_back(partsOf(k));
     const char* vertex = "fullscreen.vert.glsl";
     for (const PrefilterLevel& level : levels_) {
-        if (level.lobe.kind == LobeKind::Mirror) {
+        if (isMirror(level.lobe)) {
             int k = 0;
             while (k + 1 < stripLevels_ && sourceSize_ >> k > level.size) ++k;
             require(sourceSize_ >> k == level.size,
@@ -135,7 +156,7 @@ GpuPrefilter::GpuPrefilter(ProgramLoader& loader, int sourceSize, std::vector<Pr
                                 sourceSize_, level.size));
         }
         programs_.push_back(
-            &loader.load(vertex, "prefilter.frag.glsl", {{"NACRE_PREFILTER_LOBE", lobeDefine(level.lobe.kind)}}));
+            &loader.load(vertex, "prefilter.frag.glsl", {{"NACRE_PREFILTER_LOBE", lobeDefine(level.lobe)}}));
     }
     copy_ = &loader.load(vertex, "prefilter_copy.frag.glsl");
     halve_ = &loader.load(vertex, "prefilter_halve.frag.glsl");
@@ -150,6 +171,15 @@ void GpuPrefilter::makeTextures(const GpuPrefilterOptions& options) {
         glTexImage2D(GL_TEXTURE_2D, k, GL_RGBA32F, sourceSize_ >> k, 6 * (sourceSize_ >> k), 0, GL_RGBA, GL_FLOAT,
                      nullptr);
     setFilter(GL_TEXTURE_2D, GL_NEAREST_MIPMAP_NEAREST, GL_NEAREST, stripLevels_ - 1);
+    int partial = 0;  // edge of the largest level that is summed in parts
+    for (int k = levelCount() - 1; k >= 0; --k)
+        if (parts_[k].size() > 1) partial = levels_[k].size;
+    for (const TextureName& sums : sums_) {
+        if (partial == 0) break;
+        glBindTexture(GL_TEXTURE_2D, sums.name());
+        glTexImage2D(GL_TEXTURE_2D, 0, GL_RGBA32F, partial, partial, 0, GL_RGBA, GL_FLOAT, nullptr);
+        setFilter(GL_TEXTURE_2D, GL_NEAREST, GL_NEAREST, 0);
+    }
     glBindTexture(GL_TEXTURE_2D, 0);
     const GLint format = options.color == ColorFormat::Rgba16F ? GL_RGBA16F : GL_RGBA32F;
     for (const TextureName& chain : chains_) {
@@ -218,26 +248,53 @@ void GpuPrefilter::snapshot(GlName source) {
     glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAX_LEVEL, stripLevels_ - 1);
 }
 
+/// Levels of the strip that a level's lobe is summed on.
+GpuPrefilter::Range GpuPrefilter::rangeOf(int level) const {
+    const double width = widthOf(levels_[level].lobe), support = supportOf(levels_[level].lobe);
+    const auto place = [&](double angle) {  // as nacre_prefilter_share
+        return std::clamp(std::log2(angle * sourceSize_ / (2 * detail_)), 0.0, stripLevels_ - 1.0);
+    };
+    return {static_cast<int>(std::floor(place(width))), static_cast<int>(std::ceil(place(std::max(width, support))))};
+}
+
+/// One part, or so many rows of one level of the strip that even all their texels are within kIterations.
+std::vector<glm::ivec4> GpuPrefilter::partsOf(int level) const {
+    const Lobe& lobe = levels_[level].lobe;
+    if (isMirror(lobe)) return {glm::ivec4(0)};
+    const Range range = rangeOf(level);
+    double steps = 0;
+    for (int k = range.first; k <= range.last; ++k) steps += stepsOn(lobe, sourceSize_ >> k, detail_, k == range.last);
+    if (steps < kIterations) return {{range.first, range.last, 0, 6 * sourceSize_}};
+    std::vector<glm::ivec4> out;
+    for (int k = range.first; k <= range.last; ++k) {
+        const int edge = sourceSize_ >> k, rows = std::max(1, kIterations / (edge + 8));  // 8: of the loops around
+        for (int row = 0; row < 6 * edge; row += rows) out.push_back({k, k, row, std::min(6 * edge, row + rows)});
+    }
+    return out;
+}
+
 void GpuPrefilter::prepare(int level) const {
     const Lobe& lobe = levels_[level].lobe;
     const Program& program = *programs_[level];
-    const auto levelOf = [&](double angle) {
-        return std::log2(angle * sourceSize_ / (2 * detail_));  // as nacre_prefilter_share
-    };
-    const auto clamped = [&](double place) { return std::clamp(static_cast<int>(place), 0, stripLevels_ - 1); };
     program.set("nacre_prefilter_strip", 0);
     program.set("nacre_prefilter_edge", sourceSize_);
     program.set("nacre_prefilter_size", static_cast<float>(levels_[level].size));
-    if (lobe.kind == LobeKind::Mirror) {
+    if (isMirror(lobe)) {
         program.set("nacre_prefilter_first", halvings(sourceSize_ / levels_[level].size));
         return;
     }
     const double width = widthOf(lobe), support = supportOf(lobe);
-    program.set("nacre_prefilter_first", clamped(std::floor(levelOf(width))));
-    program.set("nacre_prefilter_last", clamped(std::ceil(levelOf(std::max(width, support)))));
+    program.set("nacre_prefilter_first", rangeOf(level).first);
+    program.set("nacre_prefilter_last", rangeOf(level).last);
+    program.set("nacre_prefilter_before", 1);
     const double parameter = lobe.kind == LobeKind::Phong ? lobe.exponent : lobe.alpha;
     program.set("nacre_prefilter_lobe_values", glm::vec4(parameter, width, support, detail_));
-    program.set("nacre_prefilter_unseen", static_cast<float>(kUnseen * zonalIntegral(zonalKernel(lobe))));
+    const bool anisotropic = lobe.kind == LobeKind::GgxAnisotropic;
+    program.set("nacre_prefilter_second", static_cast<float>(anisotropic ? lobe.alphaY : (lobe.ior - 1) / lobe.ior));
+    program.set("nacre_prefilter_axis", glm::vec3(glm::normalize(lobe.axis)));
+    // GGX's anisotropic tails see every texel of a hemisphere, whatever alpha.
+    program.set("nacre_prefilter_unseen",
+                anisotropic ? 0.0f : static_cast<float>(kUnseen * zonalIntegral(zonalKernel(lobe))));
 }
 
 int GpuPrefilter::blocksAFace(int level) const {
@@ -248,12 +305,34 @@ int GpuPrefilter::blocksAFace(int level) const {
 /// \param blocks  within one row of blocks, or whole rows
 void GpuPrefilter::drawBlocks(int level, int face, int firstBlock, int blocks) {
     const int size = levels_[level].size, row = (size + kBlock - 1) / kBlock;
-    attach(faceTarget(face), chains_[1 - shown_].name(), level);
     glViewport(0, 0, size, size);
     const int across = std::min(blocks, row), down = (blocks + row - 1) / row;
     glScissor(firstBlock % row * kBlock, firstBlock / row * kBlock, across * kBlock, down * kBlock);
-    programs_[level]->set("nacre_prefilter_destination", kGlFaces[static_cast<std::size_t>(face)]);
-    drawFullscreen(empty_);
+    const Program& program = *programs_[level];
+    program.set("nacre_prefilter_destination", kGlFaces[static_cast<std::size_t>(face)]);
+    const std::vector<glm::ivec4>& parts = parts_[level];
+    for (std::size_t i = 0; i < parts.size(); ++i) {
+        const bool ends = i + 1 == parts.size();
+        if (!isMirror(levels_[level].lobe)) {
+            program.set("nacre_prefilter_part", glm::vec4(parts[i]));
+            program.set("nacre_prefilter_goes_on", i > 0 ? 1 : 0);
+            program.set("nacre_prefilter_ends", ends ? 1 : 0);
+        }
+        if (parts.size() > 1) {
+            glActiveTexture(GL_TEXTURE1);
+            glBindTexture(GL_TEXTURE_2D, i > 0 ? sums_[(i + 1) % 2].name() : 0);
+            glActiveTexture(GL_TEXTURE0);
+        }
+        if (ends)
+            attach(faceTarget(face), chains_[1 - shown_].name(), level);
+        else
+            attach(GL_TEXTURE_2D, sums_[i % 2].name(), 0);
+        drawFullscreen(empty_);
+    }
+    if (parts.size() == 1) return;
+    glActiveTexture(GL_TEXTURE1);
+    glBindTexture(GL_TEXTURE_2D, 0);
+    glActiveTexture(GL_TEXTURE0);
 }
 
 bool GpuPrefilter::update(GlName source, double milliseconds) {

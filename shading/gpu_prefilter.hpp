@@ -13,9 +13,9 @@
 namespace nacre {
 
 struct GpuPrefilterOptions {
-    /// Source texels a width of the lobe, and as many an angle farther out. The error falls with its square or faster
-    /// and the cost grows with its square. Worst level, rmse as a share of the mean, over an even map, lamps and suns:
-    /// 0.55 % with 8, 1.4 % with 4.
+    /// Source texels a width of the lobe (an anisotropic one's narrower width), and as many an angle farther out. The
+    /// error falls with its square or faster and the cost grows with its square. Worst level, rmse as a share of the
+    /// mean, over an even map, lamps and suns: 0.55 % with 8, 1.4 % with 4.
     double detail = 8;
     /// Of the result. Half floats filter everywhere, but drivers may truncate them.
     ColorFormat color = ColorFormat::Rgba16F;
@@ -28,13 +28,14 @@ struct GpuPrefilterOptions {
 ///
 /// Lookups across edges are smooth where the driver filters seamlessly: enable GL_TEXTURE_CUBE_MAP_SEAMLESS on desktop.
 /// Needs rendering to 32-bit floats (ES 3: EXT_color_buffer_float). Cost a texel: about 16 detail² lobe evaluations for
-/// each doubling of the angle between the lobe's width, or a texel, and its end.
+/// each doubling of the angle between the lobe's width, or a texel, and its end; an anisotropic lobe's are more by up
+/// to its alphas' ratio. What would be more steps than drivers finish in one draw is summed in several, behind each
+/// other.
 class GpuPrefilter {
 public:
     /// \param sourceSize  edge of the surroundings to come, ≥ 1; halved while even, and what is coarser than the last
     ///                    level isn't read
-    /// \param levels      ≥ 1; Mirror, Diffuse, Phong, Ggx or Beckmann; sizes are size0 / 2^k, rounded down. A mirror's
-    ///                    is sourceSize / 2^k.
+    /// \param levels      ≥ 1; sizes are size0 / 2^k, rounded down. A mirror's (isMirror) is sourceSize / 2^k.
     /// \throws std::invalid_argument for what breaks these, nacre::Error when the driver refuses
     GpuPrefilter(ProgramLoader& loader, int sourceSize, std::vector<PrefilterLevel> levels,
                  const GpuPrefilterOptions& options = {});
@@ -45,8 +46,8 @@ public:
     /// read
     ///                only by the call that begins a chain, and may change afterwards
     /// \return true when this call completed a chain, which result() names from now on; the next call begins another
-    /// Changes: program, texture of unit 0 (0), framebuffer (0), viewport, vertex array (0); scissor, depth, blending
-    /// and culling are off afterwards.
+    /// Changes: program, textures of units 0 and 1 (0), framebuffer (0), viewport, vertex array (0); scissor, depth,
+    /// blending and culling are off afterwards.
     bool update(GlName source, double milliseconds);
 
     /// A chain has been completed. Before that result() is black.
@@ -66,13 +67,20 @@ private:
     void drawBlocks(int level, int face, int firstBlock, int blocks);
     int blocksAFace(int level) const;
 
+    struct Range {
+        int first, last;  ///< levels of the strip
+    };
+    Range rangeOf(int level) const;
+    std::vector<glm::ivec4> partsOf(int level) const;
+
     int sourceSize_;
     std::vector<PrefilterLevel> levels_;
     double detail_;
     int stripLevels_ = 1;
-    std::vector<const Program*> programs_;  ///< of each level
+    std::vector<const Program*> programs_;        ///< of each level
+    std::vector<std::vector<glm::ivec4>> parts_;  ///< of each level: what one draw sums
     const Program *copy_, *halve_;
-    TextureName strip_, chains_[2];
+    TextureName strip_, chains_[2], sums_[2];
     FramebufferName framebuffer_;
     VertexArray empty_;
     int shown_ = 0;

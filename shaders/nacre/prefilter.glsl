@@ -52,7 +52,7 @@ vec2 nacre_prefilter_unpack(float packed_place) {
 }
 
 // Lobes by the squared chord c = |r - l|^2 between axis and light, which keeps what 1 - cos loses near the axis. Twin:
-// zonalKernel (envmaps/lobes.hpp).
+// zonalKernel (envmaps/lobes.hpp), 2e-5 of the lobe's largest value.
 float nacre_prefilter_cosine(float c) { return max(0.0, 1.0 - 0.5 * c); }
 
 float nacre_prefilter_phong(float c, float exponent) {
@@ -76,22 +76,63 @@ float nacre_prefilter_beckmann(float c, float alpha) {
     return exp(-sin2 / (cos2 * alpha * alpha)) / (cos2 * cos2) * nacre_prefilter_cosine(c);
 }
 
+// Refraction: bend = 1 - 1/ior, not 0. zonalKernel's q^4 cancels against the distribution's, and what is left has no difference
+// of near numbers however close ior is to 1. 0 beyond the grazing facet (s) or total reflection (t).
+float nacre_prefilter_ggx_refraction(float c, float alpha, float bend) {
+    float s = 1.0 - 0.5 * c / bend, t = 1.0 + (1.0 - bend) * (0.5 * c / bend);
+    if (s <= 0.0 || t <= 0.0) return 0.0;
+    float width = alpha * bend;
+    float d = 1.0 / (s * s + c * (1.0 - 0.25 * c) / (width * width));
+    return d * d * s * t * nacre_prefilter_cosine(c);
+}
+
+float nacre_prefilter_beckmann_refraction(float c, float alpha, float bend) {
+    float s = 1.0 - 0.5 * c / bend, t = 1.0 + (1.0 - bend) * (0.5 * c / bend);
+    if (s <= 0.0 || t <= 0.0) return 0.0;
+    float width = alpha * bend * s;
+    return exp(-c * (1.0 - 0.25 * c) / (width * width)) / (s * s * s) * t * nacre_prefilter_cosine(c);
+}
+
+// `slopes`: the square of ((l - r).x / alpha, (l - r).y / alphaY), x along the tangent and y across. Twin:
+// filterAnisotropic (envmaps/anisotropic_filter.hpp), 2e-5; its (l.x, l.y) is this, as r has no part along x or y.
+float nacre_prefilter_ggx_anisotropic(float c, float slopes) {
+    float up = 2.0 - 0.5 * c;
+    float d = (4.0 - c) / (slopes + up * up);
+    return d * d * nacre_prefilter_cosine(c);
+}
+
+// The axis without its part along r. Twin: lobeTangent, to rounding over the sine between them; where that is
+// below it both take the same other.
+vec3 nacre_prefilter_tangent(vec3 axis, vec3 r) {
+    vec3 t = axis - dot(axis, r) * r;
+    if (dot(t, t) < 1e-12) t = cross(r, abs(r.x) < 0.5 ? vec3(1.0, 0.0, 0.0) : vec3(0.0, 0.0, 1.0));
+    return normalize(t);
+}
+
 #define NACRE_PREFILTER_MIRROR 0
 #define NACRE_PREFILTER_DIFFUSE 1
 #define NACRE_PREFILTER_PHONG 2
 #define NACRE_PREFILTER_GGX 3
 #define NACRE_PREFILTER_BECKMANN 4
+#define NACRE_PREFILTER_GGX_REFRACTION 5
+#define NACRE_PREFILTER_BECKMANN_REFRACTION 6
+#define NACRE_PREFILTER_GGX_ANISOTROPIC 7
 #ifndef NACRE_PREFILTER_LOBE
 #define NACRE_PREFILTER_LOBE NACRE_PREFILTER_DIFFUSE
 #endif
 
-float nacre_prefilter_lobe(float c, float parameter) {
+// The zonal ones; `second` as in NacrePrefilterPlan.
+float nacre_prefilter_lobe(float c, float parameter, float second) {
 #if NACRE_PREFILTER_LOBE == NACRE_PREFILTER_PHONG
     return nacre_prefilter_phong(c, parameter);
 #elif NACRE_PREFILTER_LOBE == NACRE_PREFILTER_GGX
     return nacre_prefilter_ggx(c, parameter);
 #elif NACRE_PREFILTER_LOBE == NACRE_PREFILTER_BECKMANN
     return nacre_prefilter_beckmann(c, parameter);
+#elif NACRE_PREFILTER_LOBE == NACRE_PREFILTER_GGX_REFRACTION
+    return nacre_prefilter_ggx_refraction(c, parameter, second);
+#elif NACRE_PREFILTER_LOBE == NACRE_PREFILTER_BECKMANN_REFRACTION
+    return nacre_prefilter_beckmann_refraction(c, parameter, second);
 #else
     return nacre_prefilter_cosine(c);
 #endif
@@ -109,7 +150,8 @@ vec2 nacre_prefilter_shadow(float along, float middle, float coneSin) {
 }
 
 // What one sum needs. Level k has texels of about h 2^k radians; an angle is summed on the level
-// log2(max(angle, width) / (detail h)), between two levels by shares of both.
+// log2(max(angle, width) / (detail h)), between two levels by shares of both. An anisotropic lobe's angle is counted in
+// the narrower direction: its levels meet in ellipses.
 struct NacrePrefilterPlan {
     int edge;         // of level 0 [texels]
     int first, last;  // levels that take part
@@ -117,47 +159,87 @@ struct NacrePrefilterPlan {
     float width;      // chord within which the lobe doesn't change much
     float support;    // chord beyond which it is left out
     float detail;     // texels a width
+    float second;     // refraction: 1 - 1/ior; anisotropic: alpha across the tangent
+    vec3 axis;        // anisotropic: unit, see nacre_prefilter_tangent
 };
 
-float nacre_prefilter_share(NacrePrefilterPlan plan, float c, int level) {
-    float place = log2(max(sqrt(c), plan.width) * float(plan.edge) / (2.0 * plan.detail));
+// \param distance2  square of the chord or, anisotropic, of the one in the narrower direction
+float nacre_prefilter_share(NacrePrefilterPlan plan, float distance2, int level) {
+    float place = log2(max(sqrt(distance2), plan.width) * float(plan.edge) / (2.0 * plan.detail));
     float gap = abs(clamp(place, float(plan.first), float(plan.last)) - float(level));
     return max(0.0, 1.0 - gap);
 }
 
-// Sum w L and sum w over the texels of one face of one level.
-vec4 nacre_prefilter_face(sampler2D strip, NacrePrefilterPlan plan, vec3 r, int level, int face) {
+// The part of a face's row [-1, 1] at height t where the square of a place's (x, y) is at most `slopes` times that of its
+// length: a s^2 + 2 b s + c <= 0 for the place (s, t, 1), so between two roots or, where the ellipse is longer than a
+// hemisphere (a < 0), outside them. x > y: nothing.
+vec2 nacre_prefilter_row(vec3 x, vec3 y, float slopes, float t) {
+    vec2 u = vec2(x.y * t + x.z, y.y * t + y.z), first = vec2(x.x, y.x);
+    float a = dot(first, first) - slopes, b = dot(first, u), c = dot(u, u) - slopes * (t * t + 1.0);
+    float inside = b * b - a * c;
+    if (a == 0.0 || inside < 0.0) return a > 0.0 ? vec2(4.0, -4.0) : vec2(-1.0, 1.0);
+    vec2 roots = (vec2(-1.0, 1.0) * sqrt(inside) - b) / a;
+    if (a > 0.0) return clamp(roots, vec2(-1.0, -4.0), vec2(4.0, 1.0));
+    return vec2(roots.y <= -1.0 ? max(roots.x, -1.0) : -1.0, roots.x >= 1.0 ? min(roots.y, 1.0) : 1.0);
+}
+
+// Sum w L and sum w over the texels of one face of one level, in the strip's rows from rows.x to before rows.y.
+vec4 nacre_prefilter_face(sampler2D strip, NacrePrefilterPlan plan, vec3 r, int level, int face, ivec2 rows) {
     int edge = plan.edge >> level;
     float h = 2.0 / float(edge);
-    float reach = level == plan.last ? plan.support : min(plan.support, 2.0 * plan.detail * h);
-    float coneSin = reach >= 1.4142 ? 2.0 : reach * sqrt(1.0 - 0.25 * reach * reach);  // chord to sine; 2: no cone
+    float reach = level == plan.last ? 2.0 : 2.0 * plan.detail * h;
     vec3 q = r * nacre_prefilter_axes(face);
+#if NACRE_PREFILTER_LOBE == NACRE_PREFILTER_GGX_ANISOTROPIC
+    vec3 tangent = nacre_prefilter_tangent(plan.axis, r);
+    vec3 x_axis = tangent * nacre_prefilter_axes(face) / plan.parameter;
+    vec3 y_axis = cross(r, tangent) * nacre_prefilter_axes(face) / plan.second;
+    float narrow = min(plan.parameter, plan.second);
+    float slopes_end = (reach + h) / narrow * ((reach + h) / narrow);  // h: a lamp may be anywhere in its texel
+    reach *= max(plan.parameter, plan.second) / narrow;
+#endif
+    reach = min(reach, plan.support);
+    float coneSin = reach >= 1.4142 ? 2.0 : reach * sqrt(1.0 - 0.25 * reach * reach);  // chord to sine; 2: no cone
     // A face reaches 54.7 degrees from its middle.
     if (q.z < cos(min(0.956 + 2.0 * asin(min(0.5 * reach, 1.0)), 3.1416))) return vec4(0.0);
     vec2 across = nacre_prefilter_shadow(q.x, q.z, coneSin), down = nacre_prefilter_shadow(q.y, q.z, coneSin);
     if (across.x > across.y || down.x > down.y) return vec4(0.0);
     ivec2 low = ivec2(max((vec2(across.x, down.x) + 1.0) / h - 0.5, 0.0));
     ivec2 high = min(ivec2((vec2(across.y, down.y) + 1.0) / h + 0.5), ivec2(edge - 1));
+    low.y = max(low.y, rows.x - face * edge), high.y = min(high.y, rows.y - face * edge - 1);
     vec4 sum = vec4(0.0);
-    for (int y = low.y; y <= high.y; ++y)
-        for (int x = low.x; x <= high.x; ++x) {
+    for (int y = low.y; y <= high.y; ++y) {
+        int left = low.x, right = high.x;
+#if NACRE_PREFILTER_LOBE == NACRE_PREFILTER_GGX_ANISOTROPIC
+        vec2 row = nacre_prefilter_row(x_axis, y_axis, slopes_end, (float(y) + 0.5) * h - 1.0);
+        if (row.x > row.y) continue;
+        left = max(left, int((row.x + 1.0) / h - 0.5)), right = min(right, int((row.y + 1.0) / h + 0.5));
+#endif
+        for (int x = left; x <= right; ++x) {
             vec4 texel = texelFetch(strip, ivec2(x, y + face * edge), level);
             vec2 st = (vec2(x, y) + nacre_prefilter_unpack(texel.a)) * h - 1.0;
             vec3 gap = vec3(st, 1.0) * inversesqrt(1.0 + dot(st, st)) - q;
             float c = dot(gap, gap);
             if (c > reach * reach) continue;
             st = (vec2(x, y) + 0.5) * h - 1.0;
-            float weight = nacre_prefilter_lobe(c, plan.parameter) * nacre_prefilter_share(plan, c, level) *
-                           nacre_prefilter_solid_angle(st, h);
-            sum += weight * vec4(texel.rgb, 1.0);
+#if NACRE_PREFILTER_LOBE == NACRE_PREFILTER_GGX_ANISOTROPIC
+            vec2 slope = vec2(dot(gap, x_axis), dot(gap, y_axis));
+            float slopes = dot(slope, slope);
+            float weight = nacre_prefilter_ggx_anisotropic(c, slopes) *
+                           nacre_prefilter_share(plan, narrow * narrow * slopes / (1.0 - 0.25 * c), level);
+#else
+            float weight = nacre_prefilter_lobe(c, plan.parameter, plan.second) * nacre_prefilter_share(plan, c, level);
+#endif
+            sum += weight * nacre_prefilter_solid_angle(st, h) * vec4(texel.rgb, 1.0);
         }
+    }
     return sum;
 }
 
-vec4 nacre_prefilter_sum(sampler2D strip, NacrePrefilterPlan plan, vec3 r) {
+// The part of a sum that lies in levels part.x to part.y and the strip's rows from part.z to before part.w.
+vec4 nacre_prefilter_sum(sampler2D strip, NacrePrefilterPlan plan, vec3 r, ivec4 part) {
     vec4 sum = vec4(0.0);
-    for (int level = plan.first; level <= plan.last; ++level)
-        for (int face = 0; face < 6; ++face) sum += nacre_prefilter_face(strip, plan, r, level, face);
+    for (int level = part.x; level <= part.y; ++level)
+        for (int face = 0; face < 6; ++face) sum += nacre_prefilter_face(strip, plan, r, level, face, part.zw);
     return sum;
 }
 

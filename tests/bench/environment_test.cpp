@@ -124,6 +124,40 @@ TEST(EnvironmentMaps, SyntheticIsAlwaysThereAndMissingFilesAreSaid) {
     EXPECT_GT(largest, 1000 * sum / static_cast<double>(map.image.data().size()));  // a sun
 }
 
+TEST(EnvironmentSweep, PlansKeepACurveOfEachMethodAndItsUsualSetting) {
+    const auto has = [](const auto& list, auto value) {
+        return std::find(list.begin(), list.end(), value) != list.end();
+    };
+    for (const bool quick : {false, true})
+        for (const int size : {128, 256, 512, 1024}) {
+            const SweepPlan plan = sweepPlan(size, quick, false);
+            EXPECT_GE(plan.samples, 16);
+            EXPECT_TRUE(has(plan.tolerances, PrefilterOptions().tolerance) && has(plan.counts, 1024)) << size;
+            EXPECT_TRUE(has(plan.details, 8.0)) << size;
+            for (const std::size_t settings : {plan.tolerances.size(), plan.counts.size(), plan.reducedSizes.size()})
+                EXPECT_GE(settings, quick ? 2u : 3u) << size;
+            EXPECT_FALSE(sweepPlan(size, false, true).details.empty()) << size;
+        }
+    EXPECT_TRUE(sweepPlan(256, false, false).everyMap);
+    EXPECT_FALSE(sweepPlan(512, false, false).everyMap);
+    const BenchSurrounding synthetic{kSyntheticName, syntheticSurrounding(16)}, yard{"yard", synthetic.map};
+    EXPECT_EQ(decidingSurroundings({synthetic}).size(), 1u);
+    EXPECT_EQ(decidingSurroundings({synthetic, yard}).at(0).name, "yard");
+}
+
+// A map that one method alone was measured on would shift that method's medians against the others'.
+TEST(EnvironmentReport, PlotsTheMapsThatMethodsShare) {
+    Report report;
+    report.environments = {measurement(Chain::Phong, 512, 0.01, 0.5), measurement(Chain::Phong, 512, 0.01, 0.5),
+                           measurement(Chain::Phong, 512, 0.9, 0.5)};
+    report.environments[1].method = "importance";
+    report.environments[2].surrounding = "alone";
+    for (EnvironmentMeasurement& m : report.environments)
+        for (LevelMeasurement& level : m.levels) level.error.samples = 16;
+    EXPECT_THAT(reportPage(report), HasSubstr("512: yard (16 texels a level)"));
+    EXPECT_THAT(reportPage(report), HasSubstr("nacre, tolerance 0.0006: 1 %, 0.5 CPU-s"));
+}
+
 TEST(EnvironmentReport, PlotsEachChainAndSize) {
     Report report;
     report.environments = {measurement(Chain::Phong, 256, 0.01, 0.5), measurement(Chain::Ggx, 128, 0.02, 0.3)};

@@ -184,6 +184,17 @@ TEST(Prefilter, ExponentOfAMillionIsTheNearestTexel) {
     for (const float v : coarse.image.data()) EXPECT_TRUE(std::isfinite(v));
 }
 
+// Their tails end, and harmonics' rounding is no weight: the nearest centres decide. 24 from 72: each is a centre.
+TEST(Prefilter, BeckmannNarrowerThanATexelIsTheNearestTexel) {
+    const EnvMap source = roughMap(EnvLayout::Cube, 72);
+    for (const Lobe& lobe : {Lobe{LobeKind::Beckmann, 0, 1e-3},
+                             {LobeKind::BeckmannRefraction, 0, 1e-3, 1.5},
+                             {LobeKind::BeckmannRefraction, 0, 1, 1.001}}) {
+        const EnvironmentError e = measureEnvironment(filterOne(source, lobe, 24), EnvironmentTruth(source), lobe, 300);
+        EXPECT_LT(e.max, 1e-6) << nameOf(lobe);
+    }
+}
+
 TEST(Prefilter, ExponentOfZeroIsTheMeanOfTheHemisphere) {
     // Its edge is a jump: the sum over texels steps as each centre crosses it, which harmonics smooth out.
     const EnvMap source = roughMap(EnvLayout::Cube, 32);

@@ -56,7 +56,8 @@ std::vector<ShaderDefines> directChoices() {
 
 std::vector<ShaderDefines> prefilterChoices() {
     std::vector<ShaderDefines> out;
-    for (const char* lobe : {"MIRROR", "DIFFUSE", "PHONG", "GGX", "BECKMANN"})
+    for (const char* lobe :
+         {"MIRROR", "DIFFUSE", "PHONG", "GGX", "BECKMANN", "GGX_REFRACTION", "BECKMANN_REFRACTION", "GGX_ANISOTROPIC"})
         out.push_back({{"NACRE_PREFILTER_LOBE", std::string("NACRE_PREFILTER_") + lobe}});
     return out;
 }

@@ -10,6 +10,12 @@ uniform float nacre_prefilter_size;          // edge of the face that is drawn [
 uniform int nacre_prefilter_first;           // levels of the strip that take part
 uniform int nacre_prefilter_last;
 uniform vec4 nacre_prefilter_lobe_values;    // parameter, width, support, detail: see NacrePrefilterPlan
+uniform float nacre_prefilter_second;        // its second parameter, likewise
+uniform vec3 nacre_prefilter_axis;           // of an anisotropic lobe, unit
+uniform vec4 nacre_prefilter_part;           // levels and rows that this draw sums: see nacre_prefilter_sum
+uniform int nacre_prefilter_goes_on;         // 1: the sum of the parts before is added
+uniform int nacre_prefilter_ends;            // 1: the last part; divided, not left as a sum
+uniform sampler2D nacre_prefilter_before;    // the sum of the parts before
 uniform float nacre_prefilter_unseen;        // a sum of weights below this saw no texel's centre
 
 #endif

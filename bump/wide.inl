@@ -1,0 +1,55 @@
+// Compiles a file of vector arithmetic for each instruction set, each in a namespace of its own: the compiler lowers a
+// vector for the set that is in force where a function is written. To be included inside an anonymous namespace, with
+// NACRE_KERNEL the file's name; NACRE_WIDEST(f) is then the f of the widest set that this processor has. All give the
+// same bits where fused multiply-add is off (bump/CMakeLists.txt).
+//
+// Each namespace has: Floats (16), Mask, load, larger, smaller, root, any.
+#define NACRE_INLINE inline __attribute__((always_inline))
+
+namespace plain {
+#include "bump/wide_types.inl"
+inline bool any(const Mask& m) {
+    std::int64_t parts[kWide / 2], all = 0;
+    std::memcpy(parts, &m, sizeof(m));
+    for (const std::int64_t part : parts) all |= part;
+    return all != 0;
+}
+#include NACRE_KERNEL
+}  // namespace plain
+
+#if defined(__x86_64__)
+#pragma GCC push_options
+#pragma GCC target("avx2")
+namespace avx2 {
+#include "bump/wide_types.inl"
+NACRE_INLINE bool any(const Mask& m) {
+    __m256i halves[2];
+    std::memcpy(halves, &m, sizeof(m));
+    const __m256i both = _mm256_or_si256(halves[0], halves[1]);
+    return !_mm256_testz_si256(both, both);
+}
+#include NACRE_KERNEL
+}  // namespace avx2
+#pragma GCC pop_options
+
+#pragma GCC push_options
+#pragma GCC target("avx512f,avx512dq,avx512bw,avx512vl,prefer-vector-width=512")
+namespace avx512 {
+#include "bump/wide_types.inl"
+NACRE_INLINE bool any(const Mask& m) {
+    __m512i bits;
+    std::memcpy(&bits, &m, sizeof(m));
+    return _mm512_test_epi32_mask(bits, bits) != 0;
+}
+#include NACRE_KERNEL
+}  // namespace avx512
+#pragma GCC pop_options
+
+inline bool hasAvx512() {
+    return __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") &&
+           __builtin_cpu_supports("avx512bw") && __builtin_cpu_supports("avx512vl");
+}
+#define NACRE_WIDEST(f) (hasAvx512() ? avx512::f : __builtin_cpu_supports("avx2") ? avx2::f : plain::f)
+#else
+#define NACRE_WIDEST(f) (plain::f)
+#endif
