@@ -80,8 +80,9 @@ public:
         return row > 0 ? row - 1 : wrap_ == Wrap::Clamp ? 0 : rows_ - 1;
     }
 
-    /// Element of the map, row by row, that the turned texel is; −1 for copies that a mirror made.
-    std::ptrdiff_t source(int x, int y) const;
+    /// Values of the turned texels (x, y) to (x + count − 1, y), to where they lie in the map, row by row; those of
+    /// copies that a mirror made are dropped.
+    void putBack(int x, int y, int count, const float* values, std::vector<float>& out) const;
 
     /// Any offset ≥ 0 from a texel, as one that `at` knows when it is added to x < columns or y < rows.
     int foldColumn(int offset) const { return fold(offset, columns_); }

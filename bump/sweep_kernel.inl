@@ -32,7 +32,8 @@ NACRE_INLINE Mask exists(const SweepGrid& grid, const SweepStep& step, int x, in
     return grid.sine() > 0 ? patch(step.row) : patch(step.row) | patch(grid.rowBefore(y, step.row) - y);
 }
 
-constexpr float kTolerance = 1e-3f;  // of a slope: smaller gains are not looked for
+constexpr float kTolerance = 1e-3f;      // of a slope: smaller gains are not looked for
+constexpr float kBendTolerance = 4e-3f;  // nor are these, of patches that bend above their chords: rarer, and dearer
 
 /// Largest slope within a step that bends down, c < 0: of A + B t + c t² at t² = A/c. Taken at that point of the patch, so
 /// that rounding of A can't raise it.
@@ -98,7 +99,7 @@ NACRE_INLINE void visit(const SweepGrid& grid, const SweepPath& path, std::size_
         Mask bent = {};
         for (int v = 0; v < kVectors; ++v) {
             found[v] = larger(chords[v], found[v]);
-            bent |= chords[v] + lift * chunk.near > found[v] + kTolerance;
+            bent |= chords[v] + lift * chunk.near > found[v] + kBendTolerance;
         }
         bends = any(bent);
     }
