@@ -9,6 +9,7 @@ struct Corners {
         : low(grid.at(x + step.column, y + step.row)), high(grid.at(x + step.column, y + step.row + 1)) {}
     /// Height where the ray leaves above its start: differences first, which are exact where heights are alike.
     NACRE_INLINE Floats leaving(const SweepStep& step, const Floats& start, int v) const {
+        if (step.share == 1) return load(high + v * kWide + 1) - start;  // a corner: the other may be a hole
         const float* other = (step.right ? low + 1 : high) + v * kWide;
         const Floats from = load(other);
         return (from - start) + step.share * (load(high + v * kWide + 1) - from);

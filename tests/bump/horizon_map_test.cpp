@@ -64,7 +64,7 @@ TEST(HorizonMap, SawToothAtNyquist) {
 TEST(HorizonMap, HolesHideNothing) {
     HeightMap map = roughMap(40, 40, 4);
     for (int k = 0; k < 40; ++k) map.heights.at(k, (7 * k) % 40, 0) = std::nanf("");
-    expectExact(map, "holes", 12);  // not along diagonals: through a hole's corner rounding decides
+    expectExact(map, "holes");
     for (float& z : map.heights.data()) z = std::nanf("");
     for (const float slope : horizonSlopes(map, 1)) EXPECT_EQ(slope, 0);
 }
