@@ -73,7 +73,8 @@ public:
             for (int c = 0; c < channels; ++c) {
                 Image layer(width, height, 1);
                 for (std::size_t i = 0; i < layer.texelCount(); ++i)
-                    layer.data()[i] = packed.data()[i * static_cast<std::size_t>(channels) + static_cast<std::size_t>(c)];
+                    layer.data()[i] =
+                        packed.data()[i * static_cast<std::size_t>(channels) + static_cast<std::size_t>(c)];
                 out.push_back(std::move(layer));
             }
         }
@@ -82,8 +83,7 @@ public:
 
     std::pair<int, int> size() const {
         const auto size = member<std::vector<int>>("size", "two integers");
-        if (size.size() != 2 || size[0] < 1 || size[1] < 1)
-            fail("", "two sizes >= 1 in 'size'", json(size).dump());
+        if (size.size() != 2 || size[0] < 1 || size[1] < 1) fail("", "two sizes >= 1 in 'size'", json(size).dump());
         return {size[0], size[1]};
     }
 
@@ -98,9 +98,8 @@ NormalMap readNormals(const Reader& reader, const Asset& asset, int width, int h
     const int channels = asset.texture("normal0").image.channels() == 4 ? 4 : 3;
     for (int level = 0, levels = reader.count("normal_levels"); level < levels; ++level) {
         const std::string part = fmt::format("normal{}", level);
-        out.levels.push_back(
-            reader.image(part, std::max(1, width >> std::min(level, 30)), std::max(1, height >> std::min(level, 30)),
-                         channels));
+        out.levels.push_back(reader.image(part, std::max(1, width >> std::min(level, 30)),
+                                          std::max(1, height >> std::min(level, 30)), channels));
         const Image& image = out.levels.back();
         for (int y = 0; y < image.height(); ++y)
             for (int x = 0; x < image.width(); ++x)

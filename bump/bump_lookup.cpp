@@ -6,7 +6,8 @@ namespace nacre {
 
 namespace {
 
-/// The two texels about coordinate c and the second one's share. The period's fraction in double, the rest as a sampler.
+/// The two texels about coordinate c and the second one's share. The period's fraction in double, the rest as a
+/// sampler.
 struct Taps {
     int first = 0, second = 0;
     float share = 0;

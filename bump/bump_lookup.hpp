@@ -23,7 +23,7 @@ std::size_t nearestDirection(const ScatterMap& map, const Vec3& direction);
 
 struct Seen {
     bool hit = false;
-    Vec2 uv{0};               ///< of the point seen; not wrapped, so beyond [0, 1] where the ray crosses a border
+    Vec2 uv{0};                 ///< of the point seen; not wrapped, so beyond [0, 1] where the ray crosses a border
     std::size_t direction = 0;  ///< the stored one
 };
 

@@ -23,14 +23,13 @@ struct NormalOptions {
     unsigned threads = 0;    ///< same bits for any
 };
 
-/// A level's normal is that of the mean slope of the texels that it stands for, by area (odd sizes share a texel between
-/// two); holes count nothing, and where there are only holes the normal is (0, 0, 1). So the mean slope of every level is
-/// that of the finest.
-/// Roughness: alpha² = 2 σ², with σ² the variance of the slopes about that mean, averaged over x and y: the Beckmann
-/// distribution of the slopes' covariance that a level loses (Olano & Baker 2010, section 3: Σ = E[s sᵀ] − E[s] E[s]ᵀ),
-/// made isotropic; GGX takes the same alpha as an approximation. Add it to the material's: alpha² + alphaMaterial². Not
-/// limited to 1; 0 at the finest level.
-/// \throws std::invalid_argument for a bad map
+/// A level's normal is that of the mean slope of the texels that it stands for, by area (odd sizes share a texel
+/// between two); holes count nothing, and where there are only holes the normal is (0, 0, 1). So the mean slope of
+/// every level is that of the finest. Roughness: alpha² = 2 σ², with σ² the variance of the slopes about that mean,
+/// averaged over x and y: the Beckmann distribution of the slopes' covariance that a level loses (Olano & Baker 2010,
+/// section 3: Σ = E[s sᵀ] − E[s] E[s]ᵀ), made isotropic; GGX takes the same alpha as an approximation. Add it to the
+/// material's: alpha² + alphaMaterial². Not limited to 1; 0 at the finest level. \throws std::invalid_argument for a
+/// bad map
 NormalMap makeNormals(const HeightMap& map, const NormalOptions& options = {});
 
 }  // namespace nacre

@@ -86,14 +86,15 @@ void requireHeights(const Image& values, const HeightReport& report) {
     for (std::size_t i = 0; i < values.data().size(); ++i) {
         const float v = values.data()[i];
         if (std::isinf(v) && !(report.fileNodata && v == static_cast<float>(*report.fileNodata)))
-            throw Error(fmt::format("{}: expected finite heights, found infinity at texel {}", report.path,
-                                    place(values, i)));
+            throw Error(
+                fmt::format("{}: expected finite heights, found infinity at texel {}", report.path, place(values, i)));
         if (std::isnan(v) && count++ == 0) first = i;
     }
     if (count > 0 && !nanIsHole)
-        throw Error(fmt::format("{}: expected finite heights, found {} NaN, the first at texel {} (--nodata nan makes "
-                                "holes of them)",
-                                report.path, count, place(values, first)));
+        throw Error(
+            fmt::format("{}: expected finite heights, found {} NaN, the first at texel {} (--nodata nan makes "
+                        "holes of them)",
+                        report.path, count, place(values, first)));
 }
 
 double unitOf(const std::string& sampleType) {
@@ -121,17 +122,17 @@ HeightField heightFromImage(const ImageFile& file, const std::string& name, cons
     for (float& v : out.map.heights.data()) v = static_cast<float>(v * r.unit * r.scale / r.texelSize);
     for (std::size_t i = 0; i < out.map.heights.data().size(); ++i)
         if (std::isinf(out.map.heights.data()[i]))
-            throw Error(fmt::format("{}: expected heights that times scale over texel size fit a float, found more at "
-                                    "texel {}",
-                                    name, place(out.map.heights, i)));
+            throw Error(
+                fmt::format("{}: expected heights that times scale over texel size fit a float, found more at "
+                            "texel {}",
+                            name, place(out.map.heights, i)));
     return out;
 }
 
 HeightField readHeight(const std::filesystem::path& path, const HeightOptions& options) {
     requireValid(options);
     const ImageFile file = readImageFile(path, Samples::Codes);
-    if (file.asset)
-        throw Error(fmt::format("{}: expected a picture of heights, found a nacre asset", path.string()));
+    if (file.asset) throw Error(fmt::format("{}: expected a picture of heights, found a nacre asset", path.string()));
     return heightFromImage(file, path.string(), options);
 }
 

@@ -12,20 +12,20 @@
 namespace nacre {
 
 struct HeightOptions {
-    /// Height = scale · value. Value: unsigned 8- and 16-bit codes count as code / largest code, 0 to 1; signed and 32-bit
-    /// integers (elevation models) and floats as they are. Finite, not 0; negative turns the relief upside down.
+    /// Height = scale · value. Value: unsigned 8- and 16-bit codes count as code / largest code, 0 to 1; signed and
+    /// 32-bit integers (elevation models) and floats as they are. Finite, not 0; negative turns the relief upside down.
     double scale = 1;
     double texelSize = 1;  ///< edge of a texel in the unit of the heights, > 0
     Wrap wrap = Wrap::Repeat;
     std::optional<double> nodata{};  ///< texels of this number, as the file holds it, are holes; NaN allowed
-    std::string channel = "auto";  ///< r, g, b, a, y (luminance); auto: the only one, or R where R = G = B
+    std::string channel = "auto";    ///< r, g, b, a, y (luminance); auto: the only one, or R where R = G = B
 };
 
 /// What was found and what was done.
 struct HeightReport {
     std::string path, hash, format, sampleType, channel;
     int width = 0, height = 0;
-    double unit = 1;   ///< value = unit · the file's number: 1/255, 1/65535 or 1
+    double unit = 1;     ///< value = unit · the file's number: 1/255, 1/65535 or 1
     HeightRange file{};  ///< of the file's numbers, holes left out
     double scale = 1, texelSize = 1;
     std::size_t holes = 0;
