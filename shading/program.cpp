@@ -59,6 +59,8 @@ std::string typeName(GLenum type) {
             return "sampler2D";
         case GL_SAMPLER_CUBE:
             return "samplerCube";
+        case GL_SAMPLER_2D_ARRAY:
+            return "sampler2DArray";
         default:
             return fmt::format("type 0x{:04x}", type);
     }
