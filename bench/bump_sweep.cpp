@@ -4,7 +4,9 @@
 
 #include <chrono>
 
+#include "bench/bump_gpu.hpp"
 #include "bench/environment_sweep.hpp"
+#include "bump/bump_asset.hpp"
 #include "bump/horizon_ellipses.hpp"
 #include "bump/horizon_map.hpp"
 #include "bump/scatter_map.hpp"
@@ -183,12 +185,21 @@ std::vector<Bar> measureBumpBars(const std::vector<BenchRelief>& reliefs, const 
         raise(gain, full / radii, relief.name);
         raise(threads, threadDifferences(relief.map), relief.name);
     }
+    Bar frame{"bump-mapped frame, one light", "with soft ellipse shadows, times plain bump mapping's", 1.6};
+    if (options.loader) {
+        report(options.progress, "frames with and without shadows", 0);
+        const HeightMap& map = reliefs.front().map;
+        BumpMaps maps{map.width(), map.height(), map.wrap, makeNormals(map), {}, fitEllipses(map), {}, {}};
+        const BumpCost cost = bumpCost(*options.loader, GpuBump(maps));
+        raise(frame, std::max(cost.hardEllipse, cost.ellipse),
+              fmt::format("{}, plain {:.2f} ms", reliefs.front().name, cost.plainMs));
+    }
     Bar speed{"horizon map, 1024, 16 azimuths", "million horizons a second", 40},
         rays{"scatter map, 512, 64 directions", "million rays a second", 40};
     Bar bake{"ellipses, 512, 128 directions", "seconds", 10};
     speed.atLeast = rays.atLeast = true;
     if (options.large) measureSpeeds(options.progress, speed, rays, bake, axes, others);
-    return {axes, others, speed, hit, beyond, rays, misjudged, gain, bake, threads};
+    return {axes, others, speed, hit, beyond, rays, misjudged, gain, bake, frame, threads};
 }
 
 }  // namespace nacre::bench

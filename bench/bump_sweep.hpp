@@ -8,6 +8,7 @@
 #include "bench/bars.hpp"
 #include "bench/bump_reliefs.hpp"
 #include "core/progress.hpp"
+#include "shading/program.hpp"
 
 namespace nacre::bench {
 
@@ -30,7 +31,8 @@ struct BumpSweepOptions {
 std::vector<BumpMeasurement> sweepReliefs(const std::vector<BenchRelief>& reliefs, const BumpSweepOptions& options);
 
 struct BumpBarOptions {
-    bool large = true;  ///< the speeds, at the sizes they are promised for
+    bool large = true;                ///< the speeds, at the sizes they are promised for
+    ProgramLoader* loader = nullptr;  ///< null: no OpenGL, the bar of frame times stays unmeasured
     Progress progress{};
 };
 /// The figures that bump promises to hold: the worst relief decides about errors, a synthetic one about speed.

@@ -16,6 +16,7 @@
 #include "core/error.hpp"
 #include "core/file.hpp"
 #include "core/version.hpp"
+#include "shading/context.hpp"
 
 namespace nacre::bench {
 namespace {
@@ -63,6 +64,11 @@ std::optional<Gpu> openGpu(const Arguments& arguments, std::vector<std::string>&
         return std::nullopt;
     }
 }
+
+struct HeadlessGpu {
+    Context context;
+    ProgramLoader loader;
+};
 
 bool isMeasured(const std::vector<Measurement>& list, const Material& material, const Setting& setting) {
     return std::any_of(list.begin(), list.end(), [&](const Measurement& m) {
@@ -151,7 +157,9 @@ void runBump(const Arguments& arguments, const Progress& progress, Report& repor
     const ReliefList list = benchReliefs();
     report.notes.insert(report.notes.end(), list.notes.begin(), list.notes.end());
     if (!arguments.noBars) {
-        const std::vector<Bar> bars = measureBumpBars(list.reliefs, {!arguments.quick, progress});
+        std::optional<HeadlessGpu> gpu = openGpu<HeadlessGpu>(arguments, report.notes);
+        const std::vector<Bar> bars =
+            measureBumpBars(list.reliefs, {!arguments.quick, gpu ? &gpu->loader : nullptr, progress});
         report.bars.insert(report.bars.end(), bars.begin(), bars.end());
     }
     if (!arguments.barsOnly) report.bumps = sweepReliefs(list.reliefs, {arguments.quick, progress});

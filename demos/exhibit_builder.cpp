@@ -65,7 +65,7 @@ void ExhibitBuilder::panel(const std::string& label, const Body& body, std::func
     const RenderTarget target(targetOptions(body));
     target.clear();
     draw(target);
-    renderSky(loader_, target, body.camera, sky);
+    if (sky.map) renderSky(loader_, target, body.camera, sky);
     RaytracedPicture picture = assemblePicture(body.traced, truth);
     rows_.back().panels.push_back({label, halved(target.read()), std::move(picture.radiance),
                                    std::move(picture.coverage), &body, std::move(draw)});

@@ -40,7 +40,7 @@ public:
     /// What pointers lead to must live until finish().
     void panel(const std::string& label, const Body& body, const EnvironmentSurface& surface,
                const EnvironmentLookup& sky, const std::vector<Rgb>& truth);
-    /// Any other way of drawing the body.
+    /// Any other way of drawing the body; before black without a sky.
     void panel(const std::string& label, const Body& body, std::function<void(const RenderTarget&)> draw,
                const EnvironmentLookup& sky, const std::vector<Rgb>& truth);
     /// A picture as it is.
