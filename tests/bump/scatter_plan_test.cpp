@@ -46,6 +46,11 @@ TEST(ScatterPlan, LitMaskIsTheReferences) {
             }
     }
     EXPECT_GT(dark, 1024);
+    HeightMap cliff = flatMap(8, 2);  // nothing is before it, but a light below the plane is dark by definition
+    cliff.wrap = Wrap::Clamp;
+    for (int x = 0; x < 4; ++x) cliff.heights.at(x, 0, 0) = cliff.heights.at(x, 1, 0) = 100;
+    EXPECT_EQ(litMask(cliff, glm::normalize(Vec3(1, 0, -0.001))).at(3, 0, 0), 0);
+    EXPECT_EQ(litMask(cliff, glm::normalize(Vec3(1, 0, 0.001))).at(3, 0, 0), 1);
 }
 
 TEST(ScatterPlan, StepsGoToTheBouncesInHalvesAndNoneToTheSky) {
