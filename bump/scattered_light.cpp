@@ -101,24 +101,34 @@ Texture textureOf(const Relief& relief, const std::vector<Rgb>& values) {
 
 // ---- Lambert's paths that meet
 
-/// ⟨n, l⟩/π where lit, k × k samples a texel.
-Texture directTexture(const HeightMap& fine, const ScatteredLightOptions& options) {
-    const Image lit = litMask(fine, options.light, options.threads);
-    Texture out(fine.heights.texelCount(), glm::vec4(0));
-    parallelFor(static_cast<std::size_t>(fine.height()), options.threads, [&](std::size_t row) {
+/// body(x, y, i, p) of all texels of the refined relief that are no holes, p the place in the relief.
+template <typename Body>
+void eachFineTexel(const Relief& relief, const HeightMap& fine, const Body& body) {
+    const double k = relief.options.detail;
+    parallelFor(static_cast<std::size_t>(fine.height()), relief.options.threads, [&](std::size_t row) {
         const int y = static_cast<int>(row);
-        for (int x = 0; x < fine.width(); ++x) {
-            if (std::isnan(fine.heights.at(x, y, 0))) continue;
-            const double cosine = std::max(0.0, glm::dot(reliefNormal(fine, x, y), options.light));
-            const auto light = static_cast<float>(cosine / kPi * static_cast<double>(lit.at(x, y, 0)));
-            out[row * static_cast<std::size_t>(fine.width()) + static_cast<std::size_t>(x)] =
-                glm::vec4(glm::vec3(light), 1);
-        }
+        for (int x = 0; x < fine.width(); ++x)
+            if (!std::isnan(fine.heights.at(x, y, 0)))
+                body(x, y, row * static_cast<std::size_t>(fine.width()) + static_cast<std::size_t>(x),
+                     Vec2((x + 0.5) / k, (y + 0.5) / k));
+    });
+}
+
+/// Radiance of direct light, k × k samples a texel.
+Texture directTexture(const Relief& relief, const HeightMap& fine) {
+    const ScatteredLightOptions& options = relief.options;
+    const Image lit = litMask(fine, options.light, options.threads);
+    const Texture albedo = textureOf(relief, relief.albedo);
+    Texture out(fine.heights.texelCount(), glm::vec4(0));
+    eachFineTexel(relief, fine, [&](int x, int y, std::size_t i, const Vec2& p) {
+        const double cosine = std::max(0.0, glm::dot(reliefNormal(fine, x, y), options.light));
+        const Rgb light = options.irradiance * (cosine / kPi * static_cast<double>(lit.data()[i]));
+        out[i] = glm::vec4(relief.lookup(albedo)(p) * light, 1);
     });
     return out;
 }
 
-/// The same of the patches at the texels' centres: towards −x −y, +x −y, −x +y, +x +y.
+/// ⟨n, l⟩/π where lit, of the patches at the texels' centres: towards −x −y, +x −y, −x +y, +x +y.
 std::vector<std::array<double, 4>> ownPatches(const Relief& relief) {
     std::vector<std::array<double, 4>> out(relief.normals.size());
     relief.eachTexel([&](int x, int y, std::size_t i) {
@@ -149,40 +159,45 @@ std::vector<Rgb> skyLight(const Relief& relief) {
     return out;
 }
 
+/// Light that comes to a texel along a bounce's directions and is reflected.
+/// \param leaves  radiance of all light, k × k samples a texel. \param passedOn  without direct light, one a texel
+Rgb gathered(const Relief& relief, const ScatterBounce& bounce, int x, int y, std::size_t i, const Lookup& leaves,
+             const std::vector<Rgb>& passedOn, const std::array<double, 4>& own) {
+    double weights = 0;
+    Rgb sum(0);
+    for (std::size_t j = 0; j < bounce.directions.size(); ++j) {
+        const auto k = static_cast<std::size_t>(bounce.directions[j]);
+        const double w = lambertWeight(relief.normals[i], relief.scatter.directions[k], bounce.weights[j]);
+        const float distance = relief.distance(k, i);
+        if (w <= 0 || distance < 0) continue;
+        weights += w;
+        const Vec2 towards = relief.along[k];
+        const double patch = own[(towards.x > 0 ? 1u : 0u) + (towards.y > 0 ? 2u : 0u)];
+        sum += w * (distance > 0 ? leaves(relief.seen(x, y, k, distance))
+                                 : relief.albedo[i] * relief.options.irradiance * patch + passedOn[i]);
+    }
+    // Some direction of the map may hit though none of these does: what lies there passes for the own texel.
+    return relief.albedo[i] * (weights > 0 ? sum / weights : leaves({x + 0.5, y + 0.5}));
+}
+
 void meet(const Relief& relief, const ScatterPlan& plan, ScatteredLight& out) {
-    const ScatteredLightOptions& options = relief.options;
-    const HeightMap fine = refinedRelief(relief.map, options.detail);
-    const Texture directTexels = directTexture(fine, options), albedoTexels = textureOf(relief, relief.albedo);
-    const Lookup direct{directTexels, fine.width(), fine.height(), options.detail, relief.map.wrap};
-    const Lookup albedo = relief.lookup(albedoTexels);
+    const HeightMap fine = refinedRelief(relief.map, relief.options.detail);
+    const Texture direct = directTexture(relief, fine);
     const std::vector<std::array<double, 4>> own = ownPatches(relief);
     const std::vector<Rgb> sky = skyLight(relief);
     std::vector<Rgb> light(relief.normals.size(), Rgb(0));
     for (std::size_t b = plan.bounces.size(); b-- > 0;) {  // from the deepest texture to the viewer's
-        const ScatterBounce& bounce = plan.bounces[b];
         std::vector<Rgb> passedOn = sky;
         for (std::size_t i = 0; i < passedOn.size(); ++i) passedOn[i] += light[i];
-        const Texture texels = textureOf(relief, passedOn);
+        const Texture coarse = textureOf(relief, passedOn);
+        Texture leaves = direct;
+        eachFineTexel(relief, fine, [&](int, int, std::size_t i, const Vec2& p) {
+            leaves[i] += glm::vec4(relief.lookup(coarse)(p), 0);
+        });
+        const Lookup lookup{leaves, fine.width(), fine.height(), relief.options.detail, relief.map.wrap};
         relief.eachTexel([&](int x, int y, std::size_t i) {
-            double weights = 0;
-            Rgb sum(0);
-            for (std::size_t j = 0; j < bounce.directions.size(); ++j) {
-                const auto k = static_cast<std::size_t>(bounce.directions[j]);
-                const double w = lambertWeight(relief.normals[i], relief.scatter.directions[k], bounce.weights[j]);
-                const float distance = relief.distance(k, i);
-                if (w <= 0 || distance < 0) continue;
-                weights += w;
-                const Vec2 p = relief.seen(x, y, k, distance), towards = relief.along[k];
-                const std::size_t patch = (towards.x > 0 ? 1u : 0u) + (towards.y > 0 ? 2u : 0u);
-                const Rgb once = distance > 0 ? direct(p) : Rgb(own[i][patch]);
-                sum += w * (albedo(p) * options.irradiance * once + relief.lookup(texels)(p));
-            }
-            if (weights ==
-                0) {  // some direction of the map hits, none of these: what lies there passes for the own texel
-                weights = 1;
-                sum = relief.albedo[i] * options.irradiance * direct({x + 0.5, y + 0.5}) + passedOn[i];
-            }
-            light[i] = relief.albedo[i] * sum * (plan.hits.data()[i] / weights);
+            const double hits = plan.hits.data()[i];
+            light[i] = hits > 0 ? hits * gathered(relief, plan.bounces[b], x, y, i, lookup, passedOn, own[i]) : Rgb(0);
         });
     }
     out.sky = imageOf(relief, sky);

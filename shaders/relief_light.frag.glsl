@@ -1,5 +1,5 @@
 // One step of light in a relief (shading/gpu_relief_light.hpp). NACRE_RELIEF_STEP chooses it.
-#define NACRE_RELIEF_DIRECT 0
+#define NACRE_RELIEF_LEAVES 0
 #define NACRE_RELIEF_SKY 1
 #define NACRE_RELIEF_GATHER 2
 #define NACRE_RELIEF_SEGMENT 3
@@ -40,10 +40,12 @@ float lit_at_centre(ivec2 texel) {
 
 void main() {
     ivec2 texel = ivec2(gl_FragCoord.xy);
-#if NACRE_RELIEF_STEP == NACRE_RELIEF_DIRECT
+#if NACRE_RELIEF_STEP == NACRE_RELIEF_LEAVES
     vec3 fine = texelFetch(nacre_relief_fine, texel, 0).xyz;
     float cosine = max(0.0, dot(fine, nacre_relief_light)) * texelFetch(nacre_relief_lit, texel, 0).r;
-    color = fine == vec3(0.0) ? vec4(0.0) : vec4(vec3(cosine / kNacreReliefPi), 1.0);
+    vec2 uv = gl_FragCoord.xy / vec2(textureSize(nacre_relief_fine, 0));
+    vec3 direct = nacre_relief_lookup(nacre_relief_albedo, uv) * nacre_relief_irradiance * (cosine / kNacreReliefPi);
+    color = fine == vec3(0.0) ? vec4(0.0) : vec4(direct + nacre_relief_lookup(nacre_relief_passed_on, uv), 1.0);
 #else
     vec4 normal = texelFetch(nacre_relief_normals, texel, 0);
     color = vec4(0.0);
@@ -66,29 +68,24 @@ void main() {
 #elif NACRE_RELIEF_STEP == NACRE_RELIEF_GATHER
     vec4 sum = texelFetch(nacre_relief_before, texel, 0);
     vec4 slopes = texelFetch(nacre_relief_slopes, texel, 0);
-    float lit = lit_at_centre(texel) / kNacreReliefPi;
+    vec3 own = albedo * nacre_relief_irradiance * (lit_at_centre(texel) / kNacreReliefPi);
+    vec3 passed_on = texelFetch(nacre_relief_passed_on, texel, 0).rgb;
     for (int i = 0; i < nacre_relief_count; ++i) {
         float w = nacre_relief_directions[i].w * dot(n, nacre_relief_directions[i].xyz);
         if (w <= 0.0) continue;
         vec2 towards = nacre_relief_towards[i].xy;
         float along = nacre_relief_distance(nacre_relief_distances, texel, int(nacre_relief_towards[i].z));
         if (along < 0.0) continue;
-        vec2 uv = nacre_relief_seen(texel, towards, along, size);
-        vec3 direct = along > 0.0 ? nacre_relief_lookup(nacre_relief_direct, uv)
-                                  : vec3(lit * nacre_relief_own(slopes, towards, nacre_relief_light));
-        sum.rgb += w * (nacre_relief_lookup(nacre_relief_albedo, uv) * nacre_relief_irradiance * direct +
-                        nacre_relief_lookup(nacre_relief_passed_on, uv));
-        sum.a += w;
+        vec3 light = along > 0.0
+                         ? nacre_relief_lookup(nacre_relief_leaves, nacre_relief_seen(texel, towards, along, size))
+                         : own * nacre_relief_own(slopes, towards, nacre_relief_light) + passed_on;
+        sum += w * vec4(light, 1.0);
     }
     color = sum;
     if (nacre_relief_last == 1) {
-        if (sum.a == 0.0) {
-            vec2 uv = nacre_relief_seen(texel, vec2(0.0), 0.0, size);
-            sum.rgb = albedo * nacre_relief_irradiance * nacre_relief_lookup(nacre_relief_direct, uv) +
-                      texelFetch(nacre_relief_passed_on, texel, 0).rgb;
-            sum.a = 1.0;
-        }
-        color = vec4(albedo * sum.rgb * (normal.w / sum.a) + texelFetch(nacre_relief_sky, texel, 0).rgb, 1.0);
+        vec3 mean = sum.a > 0.0 ? sum.rgb / sum.a
+                                : nacre_relief_lookup(nacre_relief_leaves, nacre_relief_seen(texel, vec2(0.0), 0.0, size));
+        color = vec4(albedo * mean * normal.w + texelFetch(nacre_relief_sky, texel, 0).rgb, 1.0);
     }
 
 #elif NACRE_RELIEF_STEP == NACRE_RELIEF_SEGMENT

@@ -17,10 +17,10 @@ constexpr std::size_t kDirections = 16;  // of one draw: nacre_relief_directions
 constexpr int kBrdfUnit = 11;
 
 /// Texture units, in the order of bind/relief_light.glsl.
-enum Unit { Distances, Normals, Albedo, Slopes, Fine, Lit, Direct, PassedOn, Sky, Before, SkyCube };
+enum Unit { Distances, Normals, Albedo, Slopes, Fine, Lit, Leaves, PassedOn, Sky, Before, SkyCube };
 constexpr std::array<const char*, 11> kSamplers = {
     "nacre_relief_distances", "nacre_relief_normals", "nacre_relief_albedo",  "nacre_relief_slopes",
-    "nacre_relief_fine",      "nacre_relief_lit",     "nacre_relief_direct",  "nacre_relief_passed_on",
+    "nacre_relief_fine",      "nacre_relief_lit",     "nacre_relief_leaves",  "nacre_relief_passed_on",
     "nacre_relief_sky",       "nacre_relief_before",  "nacre_relief_sky_cube"};
 
 GLint wrapMode(Wrap wrap) {
@@ -135,7 +135,7 @@ void GpuReliefLight::makeTextures(const HeightMap& map, const ScatterMap& scatte
     upload(fineNormals_, w, h, GL_RGBA32F, GL_NEAREST, wrap, [&](int x, int y) {
         return std::isnan(fine_.heights.at(x, y, 0)) ? glm::vec4(0) : glm::vec4(reliefNormal(fine_, x, y), 1);
     });
-    upload(direct_, w, h, color, GL_LINEAR, wrap, black);
+    upload(leaves_, w, h, color, GL_LINEAR, wrap, black);
     glBindTexture(GL_TEXTURE_2D, 0);
     uploadDistances(distances_, scatter, width_, height_);
     checkGl("textures of a GPU relief light");
@@ -210,19 +210,20 @@ void GpuReliefLight::sum(const Program& program, const ReliefLamp& lamp, std::sp
 void GpuReliefLight::meet(const ReliefLamp& lamp) {
     std::vector<int> all(directions_.size());
     for (std::size_t k = 0; k < all.size(); ++k) all[k] = static_cast<int>(k);
-    prepare("NACRE_RELIEF_DIRECT", lamp).use();
-    draw(direct_, fine_.width(), fine_.height());
     const TextureName& sky = plan_.empty() ? scattered_ : sky_;
     sum(prepare("NACRE_RELIEF_SKY", lamp), lamp,
         lamp.sky || lamp.surrounding ? std::span<const int>(all) : std::span<const int>(), weights_, sky);
-    const Program& gather = prepare("NACRE_RELIEF_GATHER", lamp);
-    bindTexture(Direct, direct_.name());
-    bindTexture(Sky, sky_.name());
-    bindTexture(PassedOn, sky_.name());
+    const TextureName* passedOn = &sky_;
     for (std::size_t b = plan_.size(); b-- > 0;) {
-        const TextureName& to = b == 0 ? scattered_ : radiance_[b % 2];
-        sum(gather, lamp, plan_[b].directions, plan_[b].weights, to);
-        bindTexture(PassedOn, to.name());
+        bindTexture(Leaves, 0);
+        prepare("NACRE_RELIEF_LEAVES", lamp).use();
+        bindTexture(PassedOn, passedOn->name());
+        draw(leaves_, fine_.width(), fine_.height());
+        bindTexture(Leaves, leaves_.name());
+        bindTexture(Sky, sky_.name());
+        const TextureName* to = b == 0 ? &scattered_ : &radiance_[b % 2];
+        sum(prepare("NACRE_RELIEF_GATHER", lamp), lamp, plan_[b].directions, plan_[b].weights, *to);
+        passedOn = to;
     }
 }
 

@@ -78,7 +78,7 @@ private:
     std::vector<double> weights_;
     std::vector<ScatterBounce> plan_;
     std::optional<Vec3> litFor_;
-    TextureName distances_, normals_, albedo_, slopes_, fineNormals_, lit_, direct_, sky_, radiance_[2], sums_[2],
+    TextureName distances_, normals_, albedo_, slopes_, fineNormals_, lit_, leaves_, sky_, radiance_[2], sums_[2],
         scattered_, total_;
     FramebufferName framebuffer_;
     VertexArray empty_;

@@ -65,7 +65,7 @@ std::vector<ShaderDefines> prefilterChoices() {
 /// Every step, with Lambert and with a BRDF, under a black sky and a surrounding.
 std::vector<ShaderDefines> reliefChoices() {
     std::vector<ShaderDefines> out;
-    for (const char* step : {"GATHER", "SKY", "SEGMENT", "TOTAL", "DIRECT"})
+    for (const char* step : {"GATHER", "SKY", "SEGMENT", "TOTAL", "LEAVES"})
         for (const bool brdf : {true, false})
             for (const bool cube : {true, false}) {
                 ShaderDefines defines = brdf ? factoredChoices().front() : ShaderDefines{};

@@ -8,8 +8,8 @@ uniform sampler2D nacre_relief_albedo;          // rgb; a = 0 in holes
 uniform sampler2D nacre_relief_slopes;          // of the patches at the centre: towards -x, +x, -y, +y
 uniform sampler2D nacre_relief_fine;            // normals, detail x detail a texel
 uniform sampler2D nacre_relief_lit;             // where the light is seen, as fine
-uniform sampler2D nacre_relief_direct;          // <n, l>/pi where lit, as fine
-uniform sampler2D nacre_relief_passed_on;       // radiance that is looked up
+uniform sampler2D nacre_relief_leaves;          // radiance of all light, as fine
+uniform sampler2D nacre_relief_passed_on;       // radiance without direct light, or along a path
 uniform sampler2D nacre_relief_sky;             // radiance straight from the sky
 uniform sampler2D nacre_relief_before;          // sums of the draws before
 uniform samplerCube nacre_relief_sky_cube;      // the surrounding
