@@ -53,6 +53,7 @@ SurroundingList benchSurroundings() {
     std::vector<fs::path> folders;
     if (const char* named = std::getenv("NACRE_ENVIRONMENTS")) folders.emplace_back(named);
     folders.emplace_back("build/data/environments");
+    folders.emplace_back("build/data/world");  // where demos/fetch.sh puts the gallery's
     folders.emplace_back("/usr/share/blender/datafiles/studiolights/world");
     return benchSurroundings(folders);
 }

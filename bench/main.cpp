@@ -25,7 +25,7 @@ namespace fs = std::filesystem;
 struct Arguments {
     std::string out = "build/bench", shared;
     std::vector<int> sourceSizes;
-    std::vector<std::string> materials, techniques = {"factored", "environment"};
+    std::vector<std::string> materials, techniques = {"factored", "environment", "bump"};
     bool quick = false, barsOnly = false, noBars = false, noGpu = false, quiet = false, list = false;
 };
 
@@ -147,6 +147,16 @@ void runEnvironment(const Arguments& arguments, const Progress& progress, Report
         if (!isMeasured(report.environments, m)) report.environments.push_back(std::move(m));
 }
 
+void runBump(const Arguments& arguments, const Progress& progress, Report& report) {
+    const ReliefList list = benchReliefs();
+    report.notes.insert(report.notes.end(), list.notes.begin(), list.notes.end());
+    if (!arguments.noBars) {
+        const std::vector<Bar> bars = measureBumpBars(list.reliefs, {!arguments.quick, progress});
+        report.bars.insert(report.bars.end(), bars.begin(), bars.end());
+    }
+    if (!arguments.barsOnly) report.bumps = sweepReliefs(list.reliefs, {arguments.quick, progress});
+}
+
 int run(const Arguments& arguments) {
     const auto start = std::chrono::steady_clock::now();
     const Progress progress = progressOn(arguments.quiet);
@@ -167,14 +177,16 @@ int run(const Arguments& arguments) {
         runFactored(arguments, list, progress, report);
     }
     if (wants(arguments, "environment")) runEnvironment(arguments, progress, report);
+    if (wants(arguments, "bump")) runBump(arguments, progress, report);
     report.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     if (!arguments.quiet && isatty(2) != 0) fmt::print(stderr, "\r\033[K");
     fmt::print("{}", barTable(report.bars));
     if (arguments.barsOnly) return 0;
     writeReport(report, arguments.out);
     if (!arguments.quiet)
-        fmt::print(stderr, "bench: {} bakes in {:.0f} s: {}\n", report.measurements.size() + report.environments.size(),
-                   report.seconds, (fs::path(arguments.out) / "index.html").string());
+        fmt::print(stderr, "bench: {} bakes in {:.0f} s: {}\n",
+                   report.measurements.size() + report.environments.size() + report.bumps.size(), report.seconds,
+                   (fs::path(arguments.out) / "index.html").string());
     return 0;
 }
 
@@ -185,13 +197,13 @@ int main(int argc, char** argv) {
     nacre::bench::Arguments arguments;
     arguments.shared = nacre::bench::defaultShared();
     CLI::App app(
-        "Measures error and cost of every factorization and of prefiltered environments; writes report.json and "
-        "index.html.");
+        "Measures error and cost of every factorization, of prefiltered environments and of reliefs; writes "
+        "report.json and index.html.");
     app.add_option("--out", arguments.out, "folder to write")->capture_default_str();
     app.add_option("--shared", arguments.shared, "folder with data/brdf and tools, for measured materials")
         ->capture_default_str();
-    app.add_option("--techniques", arguments.techniques, "only these: factored, environment")
-        ->check(CLI::IsMember({"factored", "environment"}));
+    app.add_option("--techniques", arguments.techniques, "only these: factored, environment, bump")
+        ->check(CLI::IsMember({"factored", "environment", "bump"}));
     app.add_option("--source-sizes", arguments.sourceSizes, "of the environments' curves: edges of the source cube")
         ->check(CLI::IsMember({32, 64, 128, 256, 512, 1024, 2048}));
     app.add_option("--materials", arguments.materials, "only these (names as --list prints them)");

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "bench/bars.hpp"
+#include "bench/bump_sweep.hpp"
 #include "bench/environment_sweep.hpp"
 #include "bench/sweep.hpp"
 
@@ -19,6 +20,7 @@ struct Report {
     std::vector<Bar> bars;
     std::vector<Measurement> measurements;
     std::vector<EnvironmentMeasurement> environments;
+    std::vector<BumpMeasurement> bumps;
 };
 
 /// Numbers that aren't finite become the strings "inf", "-inf" and "nan".

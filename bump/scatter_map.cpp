@@ -100,8 +100,10 @@ std::vector<float> rayDistances(const HeightMap& map, const Vec3& direction, uns
     const SweepGrid grid(map, std::atan2(direction.y, direction.x));
     const SweepPath path = sweepPath(grid, reachOf(map));
     const float slope = static_cast<float>(direction.z / along);
-    sweepTexels(
-        grid, threads, [&](int x, int y, float* distances) { sweepRays(grid, path, slope, x, y, distances); }, out);
+    const auto sweep = [&](int x, int y, SweepHints&, float* distances) {
+        sweepRays(grid, path, slope, x, y, distances);
+    };
+    sweepTexels(grid, threads, sweep, out);
     return out;
 }
 

@@ -17,8 +17,8 @@ const auto kRays = NACRE_WIDEST(rays);
 
 }  // namespace
 
-void sweepHorizon(const SweepGrid& grid, const SweepPath& path, int x, int y, float* slopes) {
-    kHorizon(grid, path, x, y, slopes);
+void sweepHorizon(const SweepGrid& grid, const SweepPath& path, int x, int y, SweepHints& hints, float* slopes) {
+    kHorizon(grid, path, x, y, hints, slopes);
 }
 
 void sweepRays(const SweepGrid& grid, const SweepPath& path, float slope, int x, int y, float* distances) {

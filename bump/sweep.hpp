@@ -80,8 +80,9 @@ public:
         return row > 0 ? row - 1 : wrap_ == Wrap::Clamp ? 0 : rows_ - 1;
     }
 
-    /// Element of the map, row by row, that the turned texel is; −1 for copies that a mirror made.
-    std::ptrdiff_t source(int x, int y) const;
+    /// Values of the turned texels (x, y) to (x + count − 1, y), to where they lie in the map, row by row; those of
+    /// copies that a mirror made are dropped.
+    void putBack(int x, int y, int count, const float* values, std::vector<float>& out) const;
 
     /// Any offset ≥ 0 from a texel, as one that `at` knows when it is added to x < columns or y < rows.
     int foldColumn(int offset) const { return fold(offset, columns_); }
@@ -113,16 +114,29 @@ struct SweepPath {
 };
 SweepPath sweepPath(const SweepGrid& grid, double reach);
 
+/// Chunks that held the horizons of the texels before, to be looked at first. They change no horizon by more than the
+/// tolerance of horizonSlopes.
+struct SweepHints {
+    static constexpr int kMost = 8;
+    int count = 0;
+    int chunks[kMost] = {};
+    bool has(int chunk) const {
+        for (int k = 0; k < count; ++k)
+            if (chunks[k] == chunk) return true;
+        return false;
+    }
+};
+
 /// One row's texels from x on, kSweepLanes of them (fewer are useful at the row's end): slopes of their horizons, as
-/// horizonSlopes.
-void sweepHorizon(const SweepGrid& grid, const SweepPath& path, int x, int y, float* slopes);
+/// horizonSlopes. \param hints  those of the row before, then of this one
+void sweepHorizon(const SweepGrid& grid, const SweepPath& path, int x, int y, SweepHints& hints, float* slopes);
 
 /// The same for rays that rise by `slope` a texel: distances, as rayDistances.
 void sweepRays(const SweepGrid& grid, const SweepPath& path, float slope, int x, int y, float* distances);
 
-/// Calls sweep(x, y, values) for every kSweepLanes texels of the turned map, and puts the values where the texels lie
-/// in the map. \param out  row by row, of the map's size
-void sweepTexels(const SweepGrid& grid, unsigned threads, const std::function<void(int x, int y, float* values)>& sweep,
-                 std::vector<float>& out);
+/// Calls sweep(x, y, hints, values) for every kSweepLanes texels of the turned map, down a few rows with the same
+/// hints, and puts the values where the texels lie in the map. \param out  row by row, of the map's size
+using SweepCall = std::function<void(int x, int y, SweepHints& hints, float* values)>;
+void sweepTexels(const SweepGrid& grid, unsigned threads, const SweepCall& sweep, std::vector<float>& out);
 
 }  // namespace nacre

@@ -80,10 +80,14 @@ void SweepGrid::fillBounds() {
     farBounds_ = windowBounds(own, wrap, kSweepLanes + kFar + 1, windowRows(kFar));
 }
 
-std::ptrdiff_t SweepGrid::source(int x, int y) const {
-    const bool copy = wrap_ == Wrap::Mirror && (swapped_ ? mirrored(x, height_, flipY_) || mirrored(y, width_, flipX_)
-                                                         : mirrored(x, width_, flipX_) || mirrored(y, height_, flipY_));
-    return copy ? -1 : along_[x] + down_[y];
+void SweepGrid::putBack(int x, int y, int count, const float* values, std::vector<float>& out) const {
+    const int acrossSize = swapped_ ? height_ : width_, downSize = swapped_ ? width_ : height_;
+    const bool acrossFlip = swapped_ ? flipY_ : flipX_, downFlip = swapped_ ? flipX_ : flipY_;
+    const bool mirrors = wrap_ == Wrap::Mirror;
+    if (mirrors && mirrored(y, downSize, downFlip)) return;
+    for (int i = 0; i < count; ++i)
+        if (!mirrors || !mirrored(x + i, acrossSize, acrossFlip))
+            out[static_cast<std::size_t>(along_[x + i] + down_[y])] = values[i];
 }
 
 SweepPath sweepPath(const SweepGrid& grid, double reach) {
@@ -110,20 +114,19 @@ SweepPath sweepPath(const SweepGrid& grid, double reach) {
     return out;
 }
 
-void sweepTexels(const SweepGrid& grid, unsigned threads, const std::function<void(int, int, float*)>& sweep,
-                 std::vector<float>& out) {
-    constexpr int kRows = 8;  // a task
+void sweepTexels(const SweepGrid& grid, unsigned threads, const SweepCall& sweep, std::vector<float>& out) {
+    constexpr int kRows = 16;  // a task
     parallelFor(static_cast<std::size_t>((grid.rows() + kRows - 1) / kRows), threads, [&](std::size_t task) {
         const int first = static_cast<int>(task) * kRows, last = std::min(first + kRows, grid.rows());
         float values[kSweepLanes];
-        for (int y = first; y < last; ++y)
-            for (int x = 0; x < grid.columns(); x += kSweepLanes) {
-                sweep(x, y, values);
-                for (int i = 0; i < kSweepLanes && x + i < grid.columns(); ++i) {
-                    const std::ptrdiff_t to = grid.source(x + i, y);
-                    if (to >= 0) out[static_cast<std::size_t>(to)] = values[i];
-                }
+        for (int x = 0; x < grid.columns(); x += kSweepLanes) {
+            SweepHints hints;
+            const int count = std::min(kSweepLanes, grid.columns() - x);
+            for (int y = first; y < last; ++y) {
+                sweep(x, y, hints, values);
+                grid.putBack(x, y, count, values, out);
             }
+        }
     });
 }
 

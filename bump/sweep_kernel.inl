@@ -9,6 +9,7 @@ struct Corners {
         : low(grid.at(x + step.column, y + step.row)), high(grid.at(x + step.column, y + step.row + 1)) {}
     /// Height where the ray leaves above its start: differences first, which are exact where heights are alike.
     NACRE_INLINE Floats leaving(const SweepStep& step, const Floats& start, int v) const {
+        if (step.share == 1) return load(high + v * kWide + 1) - start;  // a corner: the other may be a hole
         const float* other = (step.right ? low + 1 : high) + v * kWide;
         const Floats from = load(other);
         return (from - start) + step.share * (load(high + v * kWide + 1) - from);
@@ -32,7 +33,8 @@ NACRE_INLINE Mask exists(const SweepGrid& grid, const SweepStep& step, int x, in
     return grid.sine() > 0 ? patch(step.row) : patch(step.row) | patch(grid.rowBefore(y, step.row) - y);
 }
 
-constexpr float kTolerance = 1e-3f;  // of a slope: smaller gains are not looked for
+constexpr float kTolerance = 1e-3f;      // of a slope: smaller gains are not looked for
+constexpr float kBendTolerance = 4e-3f;  // nor are these, of patches that bend above their chords: rarer, and dearer
 
 /// Largest slope within a step that bends down, c < 0: of A + B t + c t² at t² = A/c. Taken at that point of the patch, so
 /// that rounding of A can't raise it.
@@ -77,57 +79,101 @@ NACRE_INLINE void climb(const SweepGrid& grid, const SweepPath& path, const Swee
     }
 }
 
+/// What is known of the horizons of kSweepLanes texels.
+struct Climb {
+    Floats start[kVectors], slope[kVectors];
+    Mask chunk[kVectors];  ///< where the slope was found
+};
+
+/// A chunk that may hold a higher slope: chords, and then bends where a patch could rise above them.
 template <bool holes>
-NACRE_INLINE void horizonOf(const SweepGrid& grid, const SweepPath& path, int x, int y, float* slopes) {
-    Floats start[kVectors], slope[kVectors], entry[kVectors];
+NACRE_INLINE void visit(const SweepGrid& grid, const SweepPath& path, std::size_t i, int x, int y, float lift,
+                        Climb& c) {
+    const SweepChunk& chunk = path.chunks[i];
+    Floats found[kVectors], entry[kVectors];
+    for (int v = 0; v < kVectors; ++v) found[v] = c.slope[v];
+    bool bends = holes;
+    if (!holes) {
+        Floats chords[kVectors];
+        for (int v = 0; v < kVectors; ++v) chords[v] = c.slope[v] - c.slope[v];
+        climb<false, false>(grid, path, chunk, x, y, c.start, entry, 0, chords);
+        Mask bent = {};
+        for (int v = 0; v < kVectors; ++v) {
+            found[v] = larger(chords[v], found[v]);
+            bent |= chords[v] + lift * chunk.near > found[v] + kBendTolerance;
+        }
+        bends = any(bent);
+    }
+    if (bends) {
+        const SweepStep& before = path.steps[chunk.begin - 1];
+        const Corners corners(grid, before, x, y);
+        for (int v = 0; v < kVectors; ++v) entry[v] = corners.leaving(before, c.start[v], v);
+        climb<true, holes>(grid, path, chunk, x, y, c.start, entry, lift, found);
+    }
     for (int v = 0; v < kVectors; ++v) {
-        start[v] = load(grid.at(x, y) + v * kWide);
-        slope[v] = entry[v] = start[v] - start[v];
+        c.chunk[v] = found[v] > c.slope[v] ? c.chunk[v] - c.chunk[v] + static_cast<std::int32_t>(i) : c.chunk[v];
+        c.slope[v] = found[v];
+    }
+}
+
+NACRE_INLINE bool mayRise(float high, float near, const Climb& c) {
+    Mask open = {};
+    for (int v = 0; v < kVectors; ++v) open |= (high - c.start[v]) * near > c.slope[v] + kTolerance;
+    return any(open);
+}
+
+/// The chunks that hold the horizons, each once, as many as there is room for.
+NACRE_INLINE void remember(const Climb& c, SweepHints& hints) {
+    hints.count = 0;
+    std::int32_t chunks[kSweepLanes];
+    std::memcpy(chunks, c.chunk, sizeof(chunks));
+    for (const std::int32_t i : chunks) {
+        if (i == 0 || hints.count == SweepHints::kMost || hints.has(i)) continue;
+        hints.chunks[hints.count++] = i;
+    }
+}
+
+template <bool holes>
+NACRE_INLINE void horizonOf(const SweepGrid& grid, const SweepPath& path, int x, int y, SweepHints& hints,
+                            float* slopes) {
+    Climb c;
+    Floats entry[kVectors];
+    for (int v = 0; v < kVectors; ++v) {
+        c.start[v] = load(grid.at(x, y) + v * kWide);
+        c.slope[v] = entry[v] = c.start[v] - c.start[v];
+        c.chunk[v] = Mask{};
     }
     // A patch rises above the chord along the ray by at most twist · cosine · sine · length²/4, length ≤ 1/cosine.
-    const float lift = static_cast<float>(grid.sine() / grid.cosine() / 4);
-    climb<true, holes>(grid, path, path.chunks[0], x, y, start, entry, grid.bound(x, y).twist * lift, slope);
+    const float liftOfTwist = static_cast<float>(grid.sine() / grid.cosine() / 4);
+    const auto boundOf = [&](std::size_t i) -> const SweepBound& {
+        return grid.bound(x + path.chunks[i].column, y + path.chunks[i].row);
+    };
+    climb<true, holes>(grid, path, path.chunks[0], x, y, c.start, entry, boundOf(0).twist * liftOfTwist, c.slope);
+    // What the row before found first: the rest then has to rise above that.
+    for (int k = 0; k < hints.count; ++k) {
+        const std::size_t i = static_cast<std::size_t>(hints.chunks[k]);
+        visit<holes>(grid, path, i, x, y, boundOf(i).twist * liftOfTwist, c);
+    }
     for (std::size_t i = 1; i < path.chunks.size(); ++i) {
+        const SweepChunk& chunk = path.chunks[i];
         if (i % kSweepGroup == 0) {  // a group of chunks at once
-            const float near = path.chunks[i].near;
-            const float high = grid.farHighest(x + path.chunks[i].column, y + path.chunks[i].row);
-            Mask open = {}, openAnywhere = {};
-            for (int v = 0; v < kVectors; ++v) {
-                open |= (high - start[v]) * near > slope[v] + kTolerance;
-                openAnywhere |= (grid.highest() - start[v]) * near > slope[v] + kTolerance;
-            }
-            if (!any(openAnywhere)) break;
-            if (!any(open)) {
+            if (!mayRise(grid.highest(), chunk.near, c)) break;
+            if (!mayRise(grid.farHighest(x + chunk.column, y + chunk.row), chunk.near, c)) {
                 i += kSweepGroup - 1;
                 continue;
             }
         }
-        const SweepChunk& chunk = path.chunks[i];
-        const float near = chunk.near;
-        const SweepBound& bound = grid.bound(x + chunk.column, y + chunk.row);
-        Mask open = {};
-        for (int v = 0; v < kVectors; ++v) open |= (bound.highest - start[v]) * near > slope[v] + kTolerance;
-        if (!any(open)) continue;
-        Mask bent = {};
-        Floats chords[kVectors];
-        for (int v = 0; v < kVectors; ++v) chords[v] = slope[v] - slope[v];
-        climb<false, false>(grid, path, chunk, x, y, start, entry, 0, chords);
-        for (int v = 0; v < kVectors; ++v) {
-            if (!holes) slope[v] = larger(chords[v], slope[v]);
-            bent |= chords[v] + bound.twist * lift * near > slope[v] + kTolerance;
-        }
-        if (!any(bent)) continue;
-        const SweepStep& before = path.steps[chunk.begin - 1];
-        const Corners corners(grid, before, x, y);
-        for (int v = 0; v < kVectors; ++v) entry[v] = corners.leaving(before, start[v], v);
-        climb<true, holes>(grid, path, chunk, x, y, start, entry, bound.twist * lift, slope);
+        const SweepBound& bound = boundOf(i);
+        if (!mayRise(bound.highest, chunk.near, c) || hints.has(static_cast<int>(i))) continue;
+        visit<holes>(grid, path, i, x, y, bound.twist * liftOfTwist, c);
     }
-    std::memcpy(slopes, slope, sizeof(slope));
+    remember(c, hints);
+    std::memcpy(slopes, c.slope, sizeof(c.slope));
 }
 
-void horizon(const SweepGrid& grid, const SweepPath& path, int x, int y, float* slopes) {
-    if (grid.holes()) return horizonOf<true>(grid, path, x, y, slopes);
-    horizonOf<false>(grid, path, x, y, slopes);
+void horizon(const SweepGrid& grid, const SweepPath& path, int x, int y, SweepHints& hints, float* slopes) {
+    if (grid.holes()) return horizonOf<true>(grid, path, x, y, hints, slopes);
+    horizonOf<false>(grid, path, x, y, hints, slopes);
 }
 
 /// The last step before a hit, lane by lane.

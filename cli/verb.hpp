@@ -43,6 +43,7 @@ Verb envmapVerb(Context& context);
 Verb infoVerb(Context& context);
 Verb evalVerb(Context& context);
 Verb fresnelVerb(Context& context);
+Verb bumpVerb(Context& context);
 Verb shVerb(Context& context);
 
 /// The whole command but for main. \return the exit code

@@ -7,6 +7,7 @@
 
 #include "cli/data_report.hpp"
 #include "cli/direction_lines.hpp"
+#include "cli/eval_bump.hpp"
 #include "cli/eval_environment.hpp"
 #include "cli/eval_table.hpp"
 #include "cli/numbers.hpp"
@@ -26,6 +27,7 @@ constexpr std::size_t kBatch = 1 << 16;  ///< pairs that are evaluated together:
 struct Settings {
     std::string file, source;
     unsigned threads = 0;
+    bool seen = false, normal = false;
 };
 
 struct Evaluator {
@@ -56,8 +58,15 @@ static void answer(const Evaluator& evaluator, std::vector<DirectionPair>& pairs
 
 static void runEval(const Settings& s) {
     const Asset asset = readAsset(s.file);
+    if (asset.kind != "bump" && (s.seen || s.normal))
+        throw UsageError(fmt::format("--seen, --normal: expected an asset of kind bump, found kind {}", asset.kind));
+    if (asset.kind == "bump") {
+        if (s.seen && s.normal) throw UsageError("--seen, --normal: expected one of them, found both");
+        const BumpQuestion question = s.seen ? BumpQuestion::Seen : s.normal ? BumpQuestion::Normal : BumpQuestion::Lit;
+        return evalBump(asset, s.file, s.source, question, s.threads);
+    }
     if (asset.kind != "brdf" && !s.source.empty())
-        throw UsageError(fmt::format("--source: expected an asset of kind brdf, found kind {}", asset.kind));
+        throw UsageError(fmt::format("--source: expected an asset of kind brdf or bump, found kind {}", asset.kind));
     if (asset.kind == "environment") return evalEnvironment(asset, s.file, s.threads);
     if (isTable(asset)) return evalTable(asset, s.file);
     Evaluator evaluator{factoredFromAsset(asset, s.file), {}, s.threads};
@@ -89,10 +98,24 @@ Verb evalVerb(Context&) {
         "that\n"
         "the asset's level_mapping names) chooses between the levels. Answer r,g,b, the radiance a shader fetches.\n"
         "For kind fresnel: lines cos, answer r,g,b. For kind scale_bias: lines cos,roughness (perceptual), answer "
-        "scale,bias.";
+        "scale,bias.\n"
+        "For kind bump: lines u,v,lx,ly,lz, a point of the relief (u along columns, v along rows from row 0, the "
+        "file's\n"
+        "first) and a light's direction of any length, z out of the surface. Answer lit,lit_truth, 1 or 0: what the\n"
+        "shader finds from the ellipses or, without, the horizons, bilinear between texels; and the exact horizon "
+        "there\n"
+        "(nan without heights: --source HEIGHT, or an asset baked with --heights). With --seen lines u,v,dx,dy,dz, "
+        "answer\n"
+        "hit,u,v,hit_truth,u_truth,v_truth: the point seen, of the nearest texel and stored direction; not wrapped, "
+        "and "
+        "nan\n"
+        "for misses. With --normal lines u,v, answer x,y,z.\n"
+        "Example: echo 0.5,0.5,0.6,0,0.8 | nacre eval rock.exr --source rock.png";
     const auto threads = [s](long long v) { s->threads = static_cast<unsigned>(v); };
     verb.options = {{"file", "FILE", "A baked asset", into(s->file), true},
                     {"--source", "SOURCE", "Model or file that the truth comes from", into(s->source)},
+                    {"--seen", "", "Of a bump asset: what is seen in a direction", into(s->seen)},
+                    {"--normal", "", "Of a bump asset: the normals", into(s->normal)},
                     {"--threads", "N", "0 = all cores", integerInto(threads, 0, 1024)}};
     verb.run = [s] { runEval(*s); };
     return verb;

@@ -3,6 +3,7 @@
 
 #include <memory>
 
+#include "bump/bump_asset.hpp"
 #include "cli/eval_table.hpp"
 #include "cli/terminal.hpp"
 #include "cli/verb.hpp"
@@ -51,14 +52,16 @@ static std::string infoText(const std::string& path, const Asset& asset) {
 /// Says when this version can show the file but not use it: a later version's kind or form, or a damaged description.
 static void tellUnusable(const std::string& path, const Asset& asset) {
     if (isTable(asset)) return;
-    if (asset.kind != "brdf" && asset.kind != "environment")
+    if (asset.kind != "brdf" && asset.kind != "environment" && asset.kind != "bump")
         return tell(
-            fmt::format("{}: this version does not know the kind '{}' (it knows brdf, environment, fresnel and "
+            fmt::format("{}: this version does not know the kind '{}' (it knows brdf, bump, environment, fresnel and "
                         "scale_bias) and can't use the file",
                         path, asset.kind));
     try {
         if (asset.kind == "brdf")
             factoredFromAsset(asset, path);
+        else if (asset.kind == "bump")
+            bumpFromAsset(asset, path);
         else
             envFromAsset(asset, path);
     } catch (const Error& error) {

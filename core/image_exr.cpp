@@ -29,15 +29,22 @@ namespace nacre {
     throw Error(text);
 }
 
-/// The channels to read, in the image's order; empty when the part has no colours.
-static std::vector<std::string> colourChannels(const Imf::ChannelList& channels) {
+/// Its name when there is one channel alone.
+static std::vector<std::string> onlyChannel(const Imf::ChannelList& channels) {
+    std::vector<std::string> names;
+    for (auto c = channels.begin(); c != channels.end(); ++c) names.emplace_back(c.name());
+    return names.size() == 1 ? names : std::vector<std::string>{};
+}
+
+/// The channels to read, in the image's order; empty when the part has no colours and, as data, not one channel alone.
+static std::vector<std::string> colourChannels(const Imf::ChannelList& channels, Samples samples) {
     std::vector<std::string> names;
     if (channels.findChannel("R") && channels.findChannel("G") && channels.findChannel("B"))
         names = {"R", "G", "B"};
     else if (channels.findChannel("Y") && !channels.findChannel("RY"))
         names = {"Y"};
     else
-        return {};
+        return samples == Samples::Codes ? onlyChannel(channels) : names;
     if (channels.findChannel("A")) names.emplace_back("A");
     return names;
 }
@@ -49,9 +56,9 @@ static std::string channelText(const Imf::ChannelList& channels) {
 }
 
 /// The first part with colours. \throws nacre::Error when there is none
-static int colourPart(const Imf::MultiPartInputFile& file, const std::string& name) {
+static int colourPart(const Imf::MultiPartInputFile& file, const std::string& name, Samples samples) {
     for (int part = 0; part < file.parts(); ++part)
-        if (!colourChannels(file.header(part).channels()).empty()) return part;
+        if (!colourChannels(file.header(part).channels(), samples).empty()) return part;
     fail(name, "channels R, G, B or Y", channelText(file.header(0).channels()));
 }
 
@@ -96,10 +103,11 @@ static std::string sampleType(const Imf::ChannelList& channels, const std::vecto
     return type == Imf::HALF ? "half" : type == Imf::FLOAT ? "float" : "uint";
 }
 
-static ImageFile readOpened(Imf::MultiPartInputFile& file, std::size_t fileBytes, const std::string& name) {
-    const int part = colourPart(file, name);
+static ImageFile readOpened(Imf::MultiPartInputFile& file, std::size_t fileBytes, const std::string& name,
+                            Samples samples) {
+    const int part = colourPart(file, name, samples);
     const Imf::Header& header = file.header(part);
-    const std::vector<std::string> names = colourChannels(header.channels());
+    const std::vector<std::string> names = colourChannels(header.channels(), samples);
     ImageFile out;
     out.format = "openexr";
     out.sampleType = sampleType(header.channels(), names, name);
@@ -115,13 +123,13 @@ static ImageFile readOpened(Imf::MultiPartInputFile& file, std::size_t fileBytes
     return out;
 }
 
-ImageFile parseExrImage(std::span<const std::uint8_t> bytes, const std::string& name) {
+ImageFile parseExrImage(std::span<const std::uint8_t> bytes, const std::string& name, Samples samples) {
     if (const auto broken = exr::brokenStart(bytes)) fail(name, "an OpenEXR file", *broken);
     exr::MemoryIStream stream(bytes);
     try {
         // No thread pool, and no reconstruction of a broken chunk table: a truncated file is an error.
         Imf::MultiPartInputFile file(stream, 0, false);
-        ImageFile out = readOpened(file, bytes.size(), name);
+        ImageFile out = readOpened(file, bytes.size(), name, samples);
         out.hash = contentHash({reinterpret_cast<const char*>(bytes.data()), bytes.size()});
         return out;
     } catch (const Error&) {

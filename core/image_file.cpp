@@ -12,6 +12,7 @@
 #include "core/error.hpp"
 #include "core/file.hpp"
 #include "core/oiio_reader.h"
+#include "core/tiff_scan.hpp"
 
 namespace nacre {
 
@@ -77,9 +78,10 @@ static std::string oneLine(std::string text) {
     return text;
 }
 
-static ImageFile readByOiio(const fs::path& path) {
+static ImageFile readByOiio(const fs::path& path, Samples samples) {
     const OiioModule module = loadModule(path.string());
     NacreOiioImage raw{};
+    raw.codes = samples == Samples::Codes;
     raw.max_edge = exr::kMaxEdge;
     raw.max_values = static_cast<long long>(exr::kMaxValues);
     const bool failed = module.read(path.c_str(), &raw) != 0;
@@ -92,7 +94,8 @@ static ImageFile readByOiio(const fs::path& path) {
     out.sampleType = raw.sample_type;
     out.image = Image(raw.width, raw.height, raw.channels);
     out.image.data().assign(raw.values, raw.values + out.image.data().size());
-    out.srgbDecoded = std::strcmp(raw.color_space, "sRGB") == 0 || (raw.is_integer && !statesLinear(raw.color_space));
+    out.srgbDecoded = samples == Samples::Light &&
+                      (std::strcmp(raw.color_space, "sRGB") == 0 || (raw.is_integer && !statesLinear(raw.color_space)));
     if (!out.srgbDecoded) return out;
     const int alpha = raw.channels % 2 == 0 ? raw.channels - 1 : raw.channels;
     for (std::size_t i = 0; i < out.image.data().size(); ++i)
@@ -101,17 +104,19 @@ static ImageFile readByOiio(const fs::path& path) {
     return out;
 }
 
-ImageFile readImageFile(const fs::path& path) {
+ImageFile readImageFile(const fs::path& path, Samples samples) {
     static constexpr std::array<std::uint8_t, 4> kExrMagic{0x76, 0x2f, 0x31, 0x01};
     const std::vector<std::uint8_t> bytes = readFile(path, exr::kMaxFileBytes);
     const auto startsWith = [&](std::string_view start) {
         return bytes.size() >= start.size() && std::memcmp(bytes.data(), start.data(), start.size()) == 0;
     };
     if (startsWith({reinterpret_cast<const char*>(kExrMagic.data()), kExrMagic.size()}))
-        return parseExrImage(bytes, path.string());
+        return parseExrImage(bytes, path.string(), samples);
     if (startsWith("#?")) return parseRadianceImage(bytes, path.string());
     if (bytes.empty()) throw Error(fmt::format("{}: expected a picture, found an empty file", path.string()));
-    ImageFile out = readByOiio(path);
+    const std::optional<double> nodata = scanTiff(bytes, path.string());
+    ImageFile out = readByOiio(path, samples);
+    out.nodata = nodata;
     out.hash = contentHash({reinterpret_cast<const char*>(bytes.data()), bytes.size()});
     return out;
 }

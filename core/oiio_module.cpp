@@ -3,10 +3,12 @@
 #include <OpenImageIO/imageio.h>
 
 #include <algorithm>
+#include <cstdint>
 #include <cstdio>
 #include <cstdlib>
 #include <exception>
 #include <string>
+#include <vector>
 
 #include "core/oiio_reader.h"
 
@@ -17,8 +19,43 @@ void copyText(char (&target)[N], const std::string& text) {
     std::snprintf(target, N, "%s", text.c_str());
 }
 
+template <typename T>
+bool readAs(OIIO::ImageInput& in, OIIO::TypeDesc type, const NacreOiioImage& out, std::size_t count) {
+    std::vector<T> raw(count);
+    if (!in.read_image(0, 0, 0, out.channels, type, raw.data())) return false;
+    std::transform(raw.begin(), raw.end(), out.values, [](T v) { return static_cast<float>(v); });
+    return true;
+}
+
+/// In the file's own type, so that OpenImageIO scales nothing.
+bool readCodes(OIIO::ImageInput& in, const NacreOiioImage& out, std::size_t count) {
+    switch (in.spec().format.basetype) {
+        case OIIO::TypeDesc::UINT8:
+            return readAs<std::uint8_t>(in, OIIO::TypeDesc::UINT8, out, count);
+        case OIIO::TypeDesc::INT8:
+            return readAs<std::int8_t>(in, OIIO::TypeDesc::INT8, out, count);
+        case OIIO::TypeDesc::UINT16:
+            return readAs<std::uint16_t>(in, OIIO::TypeDesc::UINT16, out, count);
+        case OIIO::TypeDesc::INT16:
+            return readAs<std::int16_t>(in, OIIO::TypeDesc::INT16, out, count);
+        case OIIO::TypeDesc::UINT32:
+            return readAs<std::uint32_t>(in, OIIO::TypeDesc::UINT32, out, count);
+        case OIIO::TypeDesc::INT32:
+            return readAs<std::int32_t>(in, OIIO::TypeDesc::INT32, out, count);
+        default:
+            return in.read_image(0, 0, 0, out.channels, OIIO::TypeDesc::FLOAT, out.values);
+    }
+}
+
+bool readValues(OIIO::ImageInput& in, const NacreOiioImage& out, std::size_t count) {
+    if (out.codes) return readCodes(in, out, count);
+    return in.read_image(0, 0, 0, out.channels, OIIO::TypeDesc::FLOAT, out.values);
+}
+
 bool read(const char* path, NacreOiioImage& out) {
-    const auto in = OIIO::ImageInput::open(path);
+    OIIO::ImageSpec wish;
+    if (out.codes) wish.attribute("oiio:UnassociatedAlpha", 1);
+    const auto in = OIIO::ImageInput::open(path, &wish);
     if (!in) {
         copyText(out.message, OIIO::geterror());
         return false;
@@ -40,7 +77,7 @@ bool read(const char* path, NacreOiioImage& out) {
         return false;
     }
     out.values = static_cast<float*>(std::malloc(static_cast<std::size_t>(values) * sizeof(float)));
-    if (out.values && in->read_image(0, 0, 0, out.channels, OIIO::TypeDesc::FLOAT, out.values)) return true;
+    if (out.values && readValues(*in, out, static_cast<std::size_t>(values))) return true;
     copyText(out.message, out.values ? in->geterror() : "no memory");
     std::free(out.values);
     out.values = nullptr;

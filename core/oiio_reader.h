@@ -7,10 +7,11 @@ extern "C" {
 #endif
 
 struct NacreOiioImage {
+    int codes;            /* wanted: integers as they are, alpha not multiplied in */
     int max_edge;         /* largest edge accepted [texels] */
     long long max_values; /* texels times channels */
     int width, height, channels;
-    float* values;          /* integers as code / largest code; freed by nacre_oiio_free */
+    float* values;          /* integers as code / largest code, or codes; freed by nacre_oiio_free */
     int is_integer;         /* the file holds integers */
     char sample_type[32];   /* uint8, half, … */
     char format[32];        /* the reader's name */

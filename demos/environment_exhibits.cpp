@@ -1,9 +1,7 @@
-#include "demos/environment_exhibits.hpp"
-
 #include <fmt/format.h>
 
 #include "core/error.hpp"
-#include "demos/environment_task.hpp"
+#include "demos/exhibit_task.hpp"
 #include "demos/orientation_chart.hpp"
 #include "demos/recipe.hpp"
 #include "envmaps/convert.hpp"
@@ -182,25 +180,11 @@ Exhibit phong(const Task& task) {
 
 }  // namespace
 
-struct Named {
-    const char* id;
-    Exhibit (*make)(const Task&);
-};
-static constexpr Named kExhibits[] = {{"env-chart", chart},    {"env-figure5", figure5},
-                                      {"env-phong", phong},    {"env-ggx", ggxSweepExhibit},
-                                      {"env-sun", sunExhibit}, {"env-lamps", lampsExhibit}};
-
-std::vector<std::string> environmentExhibitIds() {
-    std::vector<std::string> out;
-    for (const Named& n : kExhibits) out.emplace_back(n.id);
-    return out;
-}
-
-Exhibit makeEnvironmentExhibit(const std::string& id, ProgramLoader& loader, const ExhibitOptions& options,
-                               std::vector<std::string>& notes) {
-    for (const Named& n : kExhibits)
-        if (id == n.id) return n.make({loader, options, notes, id});
-    throw std::invalid_argument("unknown exhibit '" + id + "'");
+const std::vector<NamedExhibit>& environmentExhibits() {
+    static const std::vector<NamedExhibit> list{{"env-chart", chart},    {"env-figure5", figure5},
+                                                {"env-phong", phong},    {"env-ggx", ggxSweepExhibit},
+                                                {"env-sun", sunExhibit}, {"env-lamps", lampsExhibit}};
+    return list;
 }
 
 }  // namespace nacre

@@ -3,7 +3,7 @@
 
 #include "core/parallel.hpp"
 #include "core/sampling.hpp"
-#include "demos/environment_task.hpp"
+#include "demos/exhibit_task.hpp"
 #include "demos/stage.hpp"
 #include "envmaps/convert.hpp"
 #include "envmaps/fresnel_table.hpp"

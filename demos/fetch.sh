@@ -1,5 +1,5 @@
 #!/bin/sh
-# Fetches the gallery's meshes and surroundings from Debian packages without installing them:
+# Fetches the gallery's meshes, surroundings and height fields from Debian packages without installing them:
 # demos/fetch.sh [DIR], default build/data. Keeps what is there; exit 1 with one line for each package that can't be had
 # (the gallery then uses its built-in meshes and a made-up sky).
 set -eu
@@ -32,7 +32,7 @@ complain() {
   failed=1
 }
 
-mkdir -p "$data/meshes" "$data/world"
+mkdir -p "$data/meshes" "$data/world" "$data/heights"
 work=$(mktemp -d "$data/fetch.XXXXXX")
 trap 'rm -rf "$work"' EXIT
 chmod 755 "$work" # apt's own user writes here when root downloads
@@ -61,6 +61,18 @@ if [ -n "$wanted" ] && download blender-data '31 MB' surroundings; then
       mv "$work/$folder/$world.exr" "$data/world/$world.exr"
     else
       complain "blender-data holds no $folder/$world.exr"
+    fi
+  done
+fi
+
+wanted=$(missing heights .bmp rockwall_height terrain-heightmap)
+if [ -n "$wanted" ] && download libirrlicht-doc '9 MB' 'height fields'; then
+  folder=usr/share/doc/libirrlicht-dev/media
+  for height in $wanted; do
+    if dpkg-deb --fsys-tarfile "$work"/libirrlicht-doc_*.deb | tar -x -C "$work" -f - "./$folder/$height.bmp.gz"; then
+      gunzip -c "$work/$folder/$height.bmp.gz" >"$work/$height.bmp" && mv "$work/$height.bmp" "$data/heights/$height.bmp"
+    else
+      complain "libirrlicht-doc holds no $folder/$height.bmp.gz"
     fi
   done
 fi

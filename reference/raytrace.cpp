@@ -14,6 +14,7 @@ namespace {
 
 struct Surface {
     Vec3 position, normal, tangent, bitangent;
+    Vec2 uv{0};
 };
 
 template <typename T>
@@ -37,6 +38,7 @@ Surface surfaceAt(const Mesh& mesh, const RayHit& hit) {
     // Interpolated tangents may cancel or meet the normal: any tangent then, as good as none.
     s.tangent = glm::length(across) > 1e-9 ? glm::normalize(across) : anyPerpendicular(s.normal);
     s.bitangent = (tangent.w < 0 ? -1.0 : 1.0) * glm::cross(s.normal, s.tangent);
+    if (mesh.uvs.size() == mesh.positions.size()) s.uv = Vec2(interpolate(mesh.uvs, triangle, weight));
     return s;
 }
 
@@ -164,7 +166,7 @@ TracedSurface traceSurface(const Mesh& mesh, const Camera& camera, const Raytrac
                 const RayHit hit = scene.firstHit(ray);
                 if (!hit.found) continue;
                 const Surface s = surfaceAt(mesh, hit);
-                out.points[at] = {s.position, s.normal, s.tangent, s.bitangent, -out.directions[at]};
+                out.points[at] = {s.position, s.normal, s.tangent, s.bitangent, -out.directions[at], s.uv};
             }
     });
     return out;

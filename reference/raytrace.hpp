@@ -21,6 +21,7 @@ struct RaytraceOptions {
 struct SurfacePoint {
     Vec3 position, normal, tangent, bitangent;
     Vec3 toEye;
+    Vec2 uv{0};  ///< (0, 0) where the mesh has none
 };
 
 /// The rays of a picture: sample k of pixel (x, y) is element (y · width + x) · n² + k, row by row within the pixel.

@@ -12,6 +12,7 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kGrazing = 1e-12;   // of a slope: a light parallel to a ramp is lit whatever its rounding
 constexpr double kRounding = 1e-11;  // of heights and slopes: positions on a line of 1e4 texels are good to 1e-12
 constexpr double kBorder = 1e-9;     // texels: a point so near to a border is on it, or rise / distance is all rounding
+constexpr double kCorner = 1e-12;    // of a distance: crossings of a row and of a column that near are one corner
 constexpr double kAxis = 1e-15;  // a component of a direction that is an axis but for rounding, as cos(π/2) = 6e-17
 
 /// Bilinear: a = (0, 0), b = (1, 0), c = (0, 1), d = (1, 1). NaN anywhere: no patch.
@@ -101,8 +102,9 @@ void walk(const Relief& relief, const Vec2& from, const Vec2& d, double end, con
     for (double t = 0; t < end;) {
         const double next = std::min(std::min(x.exit(), y.exit()), end);
         if (!visit(patchAt(relief, x, y), Vec2(x.at(t), y.at(t)), t, next)) return;
-        if (x.exit() <= next) x.advance();
-        if (y.exit() <= next) y.advance();  // both at a corner
+        const double corner = next * (1 + kCorner);
+        if (x.exit() <= corner) x.advance();
+        if (y.exit() <= corner) y.advance();  // both: the patches beside the corner are not crossed
         t = next;
     }
 }

@@ -1,25 +1,16 @@
-// Lit surface, addressed per pixel: sum over lights of f(wi, wo) cos(alpha) E, all vectors normalised in the pixel.
-#include "nacre/bind/brdf.glsl"
-#include "nacre/bind/lights.glsl"
+// Lit surface, addressed per pixel, with a relief or without.
+#include "nacre/bind/lamps.glsl"
 #include "nacre/bind/view.glsl"
-#include "nacre/frame.glsl"
-#include "nacre/light.glsl"
 
 in vec3 v_position;
 in vec3 v_normal;
 in vec4 v_tangent;
+in vec2 v_uv;
 
 out vec4 color;
 
 void main() {
-    mat3 frame = nacre_frame(v_normal, v_tangent);
-    vec3 wo = nacre_to_local(frame, nacre_direction_to(nacre_eye, v_position));
-    vec3 sum = nacre_ambient;
-    for (int i = 0; i < NACRE_LIGHT_COUNT; ++i) {
-        vec4 light = nacre_light_position[i];
-        vec3 wi = nacre_to_local(frame, nacre_direction_to(light, v_position));
-        if (wi.z <= 0.0 || wo.z <= 0.0) continue;
-        sum += nacre_brdf(wi, wo) * (wi.z * nacre_light_falloff(light, v_position)) * nacre_light_color[i];
-    }
-    color = vec4(sum, 1.0);
+    vec3 to_eye = nacre_direction_to(nacre_eye, v_position);
+    NacreBump point = nacre_bump_point(nacre_frame(v_normal, v_tangent), v_tangent.w, v_uv, to_eye);
+    color = vec4(nacre_ambient * point.visibility + nacre_lamps(point, to_eye, v_position), 1.0);
 }

@@ -13,6 +13,7 @@ namespace {
 
 /// Texture units after a factored BRDF's.
 constexpr int kFirstUnit = kMaxFactoredTextures;
+constexpr int kReliefUnit = kFirstUnit + 4;  // after three maps and a table
 
 struct Role {
     const char *define, *name;
@@ -85,14 +86,15 @@ void bindSurface(const Program& program, const EnvironmentSurface& s) {
 
 template <class Brdf>
 void renderLit(ProgramLoader& loader, const RenderTarget& target, const GpuMesh& mesh, const LitView& view,
-               const Brdf& brdf, const EnvironmentSurface& surface) {
+               const Brdf& brdf, const EnvironmentSurface& surface, const BumpSurface& relief) {
     check(surface);
     checkLights(view.lights, kMaxLights);
-    ShaderDefines defines = withLights(brdf.defines(), view.lights);
-    for (auto& define : definesOf(surface)) defines.push_back(std::move(define));
+    const ShaderDefines defines =
+        joined(joined(withLights(brdf.defines(), view.lights), definesOf(surface)), bumpDefines(relief));
     const Program& program = loader.load("lit.vert.glsl", "lit_environment.frag.glsl", defines);
     brdf.bind(program);
     bindSurface(program, surface);
+    bindBump(program, relief, kReliefUnit);
     setView(program, view.camera, target);
     setLights(program, view);
     drawMesh(program, target, mesh);
@@ -101,22 +103,24 @@ void renderLit(ProgramLoader& loader, const RenderTarget& target, const GpuMesh&
 }  // namespace
 
 void renderEnvironment(ProgramLoader& loader, const RenderTarget& target, const GpuMesh& mesh, const Camera& camera,
-                       const EnvironmentSurface& surface) {
+                       const EnvironmentSurface& surface, const BumpSurface& relief) {
     check(surface);
-    const Program& program = loader.load("lit.vert.glsl", "environment.frag.glsl", definesOf(surface));
+    const Program& program =
+        loader.load("lit.vert.glsl", "environment.frag.glsl", joined(definesOf(surface), bumpDefines(relief)));
     bindSurface(program, surface);
+    bindBump(program, relief, kReliefUnit);
     setView(program, camera, target);
     drawMesh(program, target, mesh);
 }
 
 void renderFactored(ProgramLoader& loader, const RenderTarget& target, const GpuMesh& mesh, const LitView& view,
-                    const GpuFactoredBrdf& brdf, const EnvironmentSurface& surface) {
-    renderLit(loader, target, mesh, view, brdf, surface);
+                    const GpuFactoredBrdf& brdf, const EnvironmentSurface& surface, const BumpSurface& relief) {
+    renderLit(loader, target, mesh, view, brdf, surface, relief);
 }
 
 void renderDirect(ProgramLoader& loader, const RenderTarget& target, const GpuMesh& mesh, const LitView& view,
-                  const GpuDirectBrdf& brdf, const EnvironmentSurface& surface) {
-    renderLit(loader, target, mesh, view, brdf, surface);
+                  const GpuDirectBrdf& brdf, const EnvironmentSurface& surface, const BumpSurface& relief) {
+    renderLit(loader, target, mesh, view, brdf, surface, relief);
 }
 
 void renderSky(ProgramLoader& loader, const RenderTarget& target, const Camera& camera, const EnvironmentLookup& sky,

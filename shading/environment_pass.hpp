@@ -36,15 +36,17 @@ struct EnvironmentSurface {
 /// in use and textures bound from unit 0. Doesn't clear. Surfaces seen from behind are black.
 /// \throws std::invalid_argument when maps have different layouts, an lod isn't finite or ior ≤ 0; nacre::Error from
 ///         the shaders
+/// With a relief its normals take the surface's place, and the share of the sky that ellipses know scales the diffuse
+/// light; mirrored and refracted directions see no relief.
 void renderEnvironment(ProgramLoader& loader, const RenderTarget& target, const GpuMesh& mesh, const Camera& camera,
-                       const EnvironmentSurface& surface);
+                       const EnvironmentSurface& surface, const BumpSurface& relief = {});
 
 /// The same plus lamps by a BRDF, in one shader: sum over lights of f cosα E, plus the surrounding, plus view.ambient.
-/// The BRDF's textures are bound from unit 0, the surrounding's after them.
+/// The BRDF's textures are bound from unit 0, the surrounding's and the relief's after them.
 void renderFactored(ProgramLoader& loader, const RenderTarget& target, const GpuMesh& mesh, const LitView& view,
-                    const GpuFactoredBrdf& brdf, const EnvironmentSurface& surface);
+                    const GpuFactoredBrdf& brdf, const EnvironmentSurface& surface, const BumpSurface& relief = {});
 void renderDirect(ProgramLoader& loader, const RenderTarget& target, const GpuMesh& mesh, const LitView& view,
-                  const GpuDirectBrdf& brdf, const EnvironmentSurface& surface);
+                  const GpuDirectBrdf& brdf, const EnvironmentSurface& surface, const BumpSurface& relief = {});
 
 /// The surrounding where nothing was drawn: at the far plane, depth test LEQUAL without depth write, alpha 1. With an
 /// orthographic camera all pixels look one way. Leaves depth test LESS and write on, culling and blending off.

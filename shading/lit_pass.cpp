@@ -37,6 +37,20 @@ bool hasForm(const GpuFactoredBrdf& brdf, const char* form) {
     return brdf.defines().front().second == std::string("NACRE_FORM_") + form;
 }
 
+template <class Brdf>
+void renderRelief(ProgramLoader& loader, const RenderTarget& target, const GpuMesh& mesh, const LitView& view,
+                  const Brdf& brdf, const BumpSurface& relief) {
+    checkLights(view.lights, kMaxLights);
+    const Stages files = stages(Addressing::PerPixel);
+    const Program& program =
+        loader.load(files.vertex, files.fragment, joined(withLights(brdf.defines(), view.lights), bumpDefines(relief)));
+    brdf.bind(program);
+    bindBump(program, relief, kMaxFactoredTextures);
+    setView(program, view.camera, target);
+    setLights(program, view);
+    drawMesh(program, target, mesh);
+}
+
 }  // namespace
 
 void renderFactored(ProgramLoader& loader, const RenderTarget& target, const GpuMesh& mesh, const LitView& view,
@@ -70,6 +84,16 @@ void renderDirect(ProgramLoader& loader, const RenderTarget& target, const GpuMe
     setView(program, view.camera, target);
     setLights(program, view);
     drawMesh(program, target, mesh);
+}
+
+void renderFactored(ProgramLoader& loader, const RenderTarget& target, const GpuMesh& mesh, const LitView& view,
+                    const GpuFactoredBrdf& brdf, const BumpSurface& relief) {
+    renderRelief(loader, target, mesh, view, brdf, relief);
+}
+
+void renderDirect(ProgramLoader& loader, const RenderTarget& target, const GpuMesh& mesh, const LitView& view,
+                  const GpuDirectBrdf& brdf, const BumpSurface& relief) {
+    renderRelief(loader, target, mesh, view, brdf, relief);
 }
 
 }  // namespace nacre

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/scene.hpp"
+#include "shading/gpu_bump.hpp"
 #include "shading/gpu_direct_brdf.hpp"
 #include "shading/gpu_factored_brdf.hpp"
 #include "shading/gpu_mesh.hpp"
@@ -40,5 +41,14 @@ void renderFactored(ProgramLoader& loader, const RenderTarget& target, const Gpu
 /// The same with the model evaluated in the shader: the baseline for run-time cost. PerPixel or PerVertex.
 void renderDirect(ProgramLoader& loader, const RenderTarget& target, const GpuMesh& mesh, const LitView& view,
                   const GpuDirectBrdf& brdf, Addressing addressing = Addressing::PerPixel);
+
+/// With a relief: bumped normals and the shadows that the relief casts on itself, per pixel. Where the mesh's own
+/// normal faces away from a light it is dark. The share of the sky that ellipses know scales view.ambient. The relief's
+/// textures are bound after the BRDF's.
+/// \throws as above; std::invalid_argument for what the relief's maps don't have (bumpDefines)
+void renderFactored(ProgramLoader& loader, const RenderTarget& target, const GpuMesh& mesh, const LitView& view,
+                    const GpuFactoredBrdf& brdf, const BumpSurface& relief);
+void renderDirect(ProgramLoader& loader, const RenderTarget& target, const GpuMesh& mesh, const LitView& view,
+                  const GpuDirectBrdf& brdf, const BumpSurface& relief);
 
 }  // namespace nacre

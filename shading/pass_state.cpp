@@ -25,6 +25,11 @@ ShaderDefines withLights(ShaderDefines defines, std::span<const Light> lights) {
     return defines;
 }
 
+ShaderDefines joined(ShaderDefines first, const ShaderDefines& second) {
+    first.insert(first.end(), second.begin(), second.end());
+    return first;
+}
+
 void setView(const Program& program, const Camera& camera, const RenderTarget& target) {
     const double aspect = static_cast<double>(target.width()) / target.height();
     program.set("nacre_world_to_clip", glm::mat4(camera.projection(aspect) * camera.view()));

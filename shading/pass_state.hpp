@@ -11,6 +11,8 @@ Vec3 orthographicDirection(const Camera& camera);  ///< towards the viewer, unit
 void checkLights(std::span<const Light> lights, int most);
 /// Adds NACRE_LIGHTS: one program for each number of lights, see bind/lights.glsl.
 ShaderDefines withLights(ShaderDefines defines, std::span<const Light> lights);
+/// One list after the other.
+ShaderDefines joined(ShaderDefines first, const ShaderDefines& second);
 
 /// Uniforms of nacre/bind/view.glsl and lights.glsl. Leave `program` in use.
 void setView(const Program& program, const Camera& camera, const RenderTarget& target);

@@ -13,7 +13,7 @@
 #include "core/file.hpp"
 #include "core/version.hpp"
 #include "demos/entry.hpp"
-#include "demos/environment_exhibits.hpp"
+#include "demos/exhibit_list.hpp"
 #include "demos/recipe.hpp"
 #include "demos/stage.hpp"
 #include "shading/context.hpp"
@@ -72,7 +72,7 @@ struct Choice {
 };
 
 Choice chosen(std::vector<Recipe> all, const std::vector<std::string>& ids) {
-    const std::vector<std::string> exhibits = environmentExhibitIds();
+    const std::vector<std::string> exhibits = exhibitIds();
     if (ids.empty()) return {std::move(all), exhibits};
     std::vector<std::string> known;
     for (const Recipe& r : all) known.push_back(r.id);
@@ -128,12 +128,13 @@ Gallery makeGallery(const Arguments& arguments, const Choice& choice) {
     }
     ExhibitOptions exhibitOptions;
     exhibitOptions.worldFolder = std::filesystem::path(arguments.data) / "world";
+    exhibitOptions.heightFolder = std::filesystem::path(arguments.data) / "heights";
     exhibitOptions.quick = arguments.quick;
     exhibitOptions.timingRepeats = options.timingRepeats;
     exhibitOptions.progress = options.progress;
     for (std::size_t i = 0; i < choice.exhibits.size(); ++i) {
         reporter.begin(recipes.size() + i);
-        gallery.exhibits.push_back(makeEnvironmentExhibit(choice.exhibits[i], loader, exhibitOptions, gallery.notes));
+        gallery.exhibits.push_back(makeExhibit(choice.exhibits[i], loader, exhibitOptions, gallery.notes));
     }
     reporter.end();
     gallery.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();

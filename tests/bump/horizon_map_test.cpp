@@ -8,12 +8,13 @@
 namespace nacre {
 namespace {
 
-constexpr double kTolerance = 1e-3;  // of slopes: what horizonSlopes promises
+constexpr double kTolerance = 4e-3;  // of slopes, at worst: what horizonSlopes promises
 
 void expectExact(const HeightMap& map, const char* what, int azimuths = 16) {
     const HorizonSamples samples = drawHorizonSamples(map, azimuths, 3000);
     const HorizonError error = measureHorizons(samples, makeHorizonMap(map, azimuths));
-    EXPECT_LE(error.maxRad, kTolerance) << what;
+    EXPECT_LE(error.maxRad, std::atan(kTolerance)) << what;
+    EXPECT_GE(error.shareWithinMilliRad, 0.995) << what;
     EXPECT_LE(error.rmseDegAlongAxes, 0.05) << what;
     EXPECT_LE(error.rmseDegWorst, 0.05) << what;
 }
@@ -63,7 +64,7 @@ TEST(HorizonMap, SawToothAtNyquist) {
 TEST(HorizonMap, HolesHideNothing) {
     HeightMap map = roughMap(40, 40, 4);
     for (int k = 0; k < 40; ++k) map.heights.at(k, (7 * k) % 40, 0) = std::nanf("");
-    expectExact(map, "holes", 12);  // not along diagonals: through a hole's corner rounding decides
+    expectExact(map, "holes");
     for (float& z : map.heights.data()) z = std::nanf("");
     for (const float slope : horizonSlopes(map, 1)) EXPECT_EQ(slope, 0);
 }

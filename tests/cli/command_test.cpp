@@ -41,6 +41,7 @@ TEST(CommandUsage, HelpOfEveryVerbGoesToStandardOutput) {
     for (const std::vector<std::string>& words : {std::vector<std::string>{"--help"},
                                                   {"factorize", "--help"},
                                                   {"envmap", "--help"},
+                                                  {"bump", "--help"},
                                                   {"info", "--help"},
                                                   {"eval", "--help"},
                                                   {"models", "--help"},
@@ -56,7 +57,8 @@ TEST(CommandUsage, HelpOfEveryVerbGoesToStandardOutput) {
 
 TEST(CommandUsage, WrongUsageIsExitTwo) {
     const Scratch scratch;
-    expectFailure(nacre({}), 2, {"expected a verb", "factorize, envmap, fresnel, sh, info, eval, models, methods"});
+    expectFailure(nacre({}), 2,
+                  {"expected a verb", "factorize, envmap, bump, fresnel, sh, info, eval, models, methods"});
     expectFailure(nacre({"frobnicate"}), 2, {"'frobnicate'", "factorize"});
     expectFailure(nacre({"factorize", "lambert"}), 2, {"--output is required"});
     expectFailure(nacre({"info"}), 2, {"file"});
@@ -345,11 +347,11 @@ TEST(CommandInfo, FormAndKindOfALaterVersion) {  // shown, but not as if they co
         EXPECT_THAT(outcome.err, AllOf(HasSubstr("unknown factored form 'neural_lobe'"), HasSubstr("can't use")));
     }
     expectFailure(nacre({"eval", form}), 1, {"b.exr", "unknown factored form 'neural_lobe'", "single_lobe"});
-    const std::string kind = relabelled(scratch, "\"kind\": \"brdf\"", "\"kind\": \"bump\"").string();
+    const std::string kind = relabelled(scratch, "\"kind\": \"brdf\"", "\"kind\": \"glow\"").string();
     const Outcome outcome = nacre({"info", kind});
-    EXPECT_THAT(outcome.out, HasSubstr("bump"));
-    EXPECT_THAT(outcome.err, AllOf(HasSubstr("does not know the kind 'bump'"), HasSubstr("can't use")));
-    expectFailure(nacre({"eval", kind}), 1, {"expected an asset of kind brdf, found bump"});
+    EXPECT_THAT(outcome.out, HasSubstr("glow"));
+    EXPECT_THAT(outcome.err, AllOf(HasSubstr("does not know the kind 'glow'"), HasSubstr("can't use")));
+    expectFailure(nacre({"eval", kind}), 1, {"expected an asset of kind brdf, found glow"});
 }
 
 TEST(CommandInfo, UsableAssetIsShownWithoutComplaint) {

@@ -158,6 +158,18 @@ TEST(ImageFileOther, IntegersAreDecodedFromSrgb) {
         EXPECT_NEAR(read.image.data()[i], srgbToLinear(codes[i] / 255.0), 1e-6) << i;
 }
 
+TEST(ImageFileOther, CodesAreTheNumbersOfTheFile) {
+    const Scratch scratch;
+    const std::vector<std::uint8_t> codes = {0, 128, 255, 10, 64, 200};
+    std::string ppm = "P6\n2 1\n255\n";
+    ppm.append(codes.begin(), codes.end());
+    writeFile(scratch / "a.ppm", ppm);
+    const ImageFile read = readImageFile(scratch / "a.ppm", Samples::Codes);
+    EXPECT_FALSE(read.srgbDecoded);
+    EXPECT_EQ(read.image.data(), (std::vector<float>{0, 128, 255, 10, 64, 200}));
+    EXPECT_FALSE(read.nodata);
+}
+
 TEST(ImageFileOther, FloatsAreLinear) {
     const Scratch scratch;
     const std::vector<float> values = {0.5f, 2, 1000};

@@ -1,3 +1,4 @@
+#include <set>
 // Exhibits on the page, the orientation chart, and the surroundings.
 #include "demos/exhibit.hpp"
 
@@ -6,7 +7,7 @@
 #include <limits>
 
 #include "core/error.hpp"
-#include "demos/environment_exhibits.hpp"
+#include "demos/exhibit_list.hpp"
 #include "demos/orientation_chart.hpp"
 #include "demos/page.hpp"
 #include "demos/surrounding.hpp"
@@ -109,7 +110,11 @@ TEST(Surrounding, AMadeUpSkyStandsInAndSaysSo) {
     EXPECT_GT(sampleEnv(small, {0, 1, 0}).b, sampleEnv(small, {0, -1, 0}).b);
 }
 
-TEST(EnvironmentExhibits, IdsAreKnown) { EXPECT_GE(environmentExhibitIds().size(), 4u); }
+TEST(ExhibitList, IdsAreUnique) {
+    const std::vector<std::string> ids = exhibitIds();
+    EXPECT_GE(ids.size(), 8u);
+    EXPECT_EQ(std::set<std::string>(ids.begin(), ids.end()).size(), ids.size());
+}
 
 }  // namespace
 }  // namespace nacre

@@ -2,7 +2,8 @@
 """Writes the corpus files that are made by formula: small measured files of every layout.
 Run from the repository root: python3 tests/fuzz/make_corpus.py
 (corpus/asset comes from the nacre command: factorize MODEL --size 4 in each storage format, and
-envmap of a 4 x 2 picture --convert; corpus/exr from OpenEXR:
+envmap of a 4 x 2 picture --convert,
+bump of a 4 x 3 picture with every output; corpus/exr from OpenEXR:
 tests/core/exr_files.hpp, 9 × 9 texels or less in each compression.)"""
 import math
 import os
@@ -78,3 +79,30 @@ write("radiance/cut.hdr", head + b"-Y 2 +X 10\n" + row)
 write("radiance/huge.hdr", head + b"-Y 16384 +X 16384\n" + row)
 write("env_queries/queries.csv", b"x,y,z,alpha\n0,1,0\n1e300,0,-3,0.5\n# end\n\n0,0,-1e-300,1e9\r\n")
 write("env_queries/broken.csv", b"0,0,0\nnan,1,1\n1,2\n1,2,3,4,5\n,,,\n")
+
+write("bump_queries/queries.csv", b"u,v,lx,ly,lz\n0.5,0.5,0,0,1\n# end\n\n-3,1e9,1e300,0,-1e-300\r\n")
+write("bump_queries/broken.csv", b"0,0,0,0,0\n0,nan,1,1,1\n1,2\n1,2,3,4,5,6\n,,,,\n")
+
+
+def tiff(order, big, nodata):
+    """One strip of two bytes and the tag GDAL_NODATA; the readers' layouts of TIFF 6.0 and BigTIFF."""
+    size, count = ("Q", "Q") if big else ("I", "H")
+    tags = [(273, 4, 1, struct.pack(order + "I", 0)), (279, 4, 1, struct.pack(order + "I", 2)),
+            (42113, 2, len(nodata), nodata)]
+    head = (b"II" if order == "<" else b"MM") + struct.pack(order + "H", 43 if big else 42)
+    head += struct.pack(order + "HHQ", 8, 0, 16) if big else struct.pack(order + "I", 8)
+    width = 8 if big else 4
+    data_at = len(head) + struct.calcsize(order + count) + len(tags) * (4 + 2 * width) + width
+    body, data = struct.pack(order + count, len(tags)), b""
+    for tag, kind, number, value in tags:
+        if len(value) > width:
+            value, data = struct.pack(order + size, data_at + len(data)), data + value
+        body += struct.pack(order + "HH" + size, tag, kind, number) + value.ljust(width, b"\0")
+    return head + body + bytes(width) + data
+
+
+write("tiff/little.tif", tiff("<", False, b"-32768\0"))
+write("tiff/big.tif", tiff(">", False, b"nan"))
+write("tiff/bigtiff.tif", tiff("<", True, b"-9999\0"))
+write("tiff/bigtiff_big.tif", tiff(">", True, b"-3.4028234663852886e+38\0"))
+write("tiff/no_number.tif", tiff("<", False, b"none\xff\0"))

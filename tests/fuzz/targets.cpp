@@ -8,12 +8,15 @@
 #include <stdexcept>
 #include <string_view>
 
+#include "bump/bump_lookup.hpp"
 #include "cli/direction_lines.hpp"
+#include "cli/eval_bump.hpp"
 #include "cli/eval_environment.hpp"
 #include "core/asset.hpp"
 #include "core/error.hpp"
 #include "core/file.hpp"
 #include "core/image_file.hpp"
+#include "core/tiff_scan.hpp"
 #include "envmaps/env_asset.hpp"
 #include "envmaps/source.hpp"
 #include "factorize/factored_brdf.hpp"
@@ -30,6 +33,14 @@ static void requireDefined(const Rgb& value, const char* what) {
     if (!isFinite(value)) throw std::logic_error(std::string(what) + ": f is not finite");
 }
 
+/// What the shaders' lookups make of maps that were read.
+static void askBump(const BumpMaps& maps) {
+    const double u = 0.3, v = -7.1;
+    if (maps.ellipses || maps.horizons) litMargin(maps, u, v, kIn);
+    if (maps.normals) requireDefined(normalAt(maps, u, v), "bump");
+    if (maps.scatter && !std::isfinite(seenFrom(maps, u, v, kIn).uv.x)) throw std::logic_error("a point seen nowhere");
+}
+
 static void readAssetBytes(std::span<const std::uint8_t> bytes) {
     const Asset asset = parseAsset(bytes, "input");
     if (asset.kind == "environment") {
@@ -37,6 +48,7 @@ static void readAssetBytes(std::span<const std::uint8_t> bytes) {
         requireDefined(sampleChain(chain, kOut, chain.mapping ? lodOf(*chain.mapping, 0.3) : 0), "environment");
         return;
     }
+    if (asset.kind == "bump") return askBump(bumpFromAsset(asset, "input"));
     const FactoredBrdf brdf = factoredFromAsset(asset, "input");
     evaluate(brdf, kIn, kOut);
 }
@@ -69,6 +81,8 @@ static void readAsMap(const ImageFile& file) {
 static void readExrBytes(std::span<const std::uint8_t> bytes) { readAsMap(parseExrImage(bytes, "input")); }
 static void readRadianceBytes(std::span<const std::uint8_t> bytes) { readAsMap(parseRadianceImage(bytes, "input")); }
 
+static void readTiffBytes(std::span<const std::uint8_t> bytes) { scanTiff(bytes, "input"); }
+
 /// Feeds a reader of lines.
 template <typename Reader, typename Item>
 static void readLines(std::span<const std::uint8_t> bytes) {
@@ -91,7 +105,9 @@ const std::vector<FuzzTarget>& fuzzTargets() {
                                                     {"directions", readLines<cli::DirectionReader, DirectionPair>},
                                                     {"exr", readExrBytes},
                                                     {"radiance", readRadianceBytes},
-                                                    {"env_queries", readLines<cli::EnvQueryReader, cli::EnvQuery>}};
+                                                    {"tiff", readTiffBytes},
+                                                    {"env_queries", readLines<cli::EnvQueryReader, cli::EnvQuery>},
+                                                    {"bump_queries", readLines<cli::BumpQueryReader, cli::BumpQuery>}};
     return targets;
 }
 

@@ -94,6 +94,30 @@ std::vector<ShaderDefines> environmentChoices() {
     return out;
 }
 
+/// Every shadow; every other choice once.
+std::vector<ShaderDefines> bumpChoices() {
+    const std::pair<std::string, std::string> on{"NACRE_BUMP", "1"}, soft{"NACRE_BUMP_SOFT", "1"};
+    const std::pair<std::string, std::string> ellipse{"NACRE_BUMP_SHADOW", "NACRE_BUMP_ELLIPSE"},
+        horizon{"NACRE_BUMP_SHADOW", "NACRE_BUMP_HORIZON"};
+    return {
+        {on, ellipse, soft, {"NACRE_BUMP_INDIRECT", "0"}, {"NACRE_BUMP_MIRROR", "1"}, {"NACRE_BUMP_ROUGHNESS", "1"}},
+        {on, horizon, soft},
+        {on, ellipse},
+        {on, horizon},
+        {on}};
+}
+
+/// Each of `first` with each of `second`.
+std::vector<ShaderDefines> combined(const std::vector<ShaderDefines>& first, const std::vector<ShaderDefines>& second) {
+    std::vector<ShaderDefines> out;
+    for (const ShaderDefines& a : first)
+        for (const ShaderDefines& b : second) {
+            out.push_back(a);
+            out.back().insert(out.back().end(), b.begin(), b.end());
+        }
+    return out;
+}
+
 std::vector<ShaderDefines> choicesFor(const std::string& file) {
     if (file == "nacre/bind/factored_brdf.glsl") return factoredChoices();
     if (file == "nacre/bind/direct_brdf.glsl") return directChoices();
@@ -103,6 +127,9 @@ std::vector<ShaderDefines> choicesFor(const std::string& file) {
         for (ShaderDefines& defines : directChoices()) out.push_back(std::move(defines));
         return out;
     }
+    if (file == "nacre/bind/bump.glsl") return bumpChoices();
+    if (file == "nacre/bind/lamps.glsl")  // a table, and a microfacet model for the roughness
+        return combined({factoredChoices().front(), directBrdf(makeModel("ggx"))->defines()}, bumpChoices());
     if (file == "nacre/prefilter.glsl") return prefilterChoices();
     return {{}};
 }
@@ -133,6 +160,7 @@ std::vector<ProgramCase> programs() {
     std::vector<ProgramCase> out;
     const std::vector<ShaderDefines> brdfs = choicesFor("nacre/bind/brdf.glsl");
     out.push_back({"lit.vert.glsl", "lit.frag.glsl", brdfs});
+    out.push_back({"lit.vert.glsl", "lit.frag.glsl", choicesFor("nacre/bind/lamps.glsl")});
     out.push_back({"lit_vertex.vert.glsl", "lit_vertex.frag.glsl", {brdfs.front(), brdfs.back()}});
     std::vector<ShaderDefines> matrix;
     for (ShaderDefines defines : factoredChoices())
@@ -154,6 +182,8 @@ std::vector<ProgramCase> programs() {
     }
     out.push_back({"lit.vert.glsl", "lit_environment.frag.glsl", both});
     out.push_back({"fullscreen.vert.glsl", "relief_light.frag.glsl", reliefChoices()});
+    out.push_back({"lit.vert.glsl", "lit_environment.frag.glsl", combined({both.back()}, bumpChoices())});
+    out.push_back({"lit.vert.glsl", "environment.frag.glsl", combined({surroundings.back()}, bumpChoices())});
     return out;
 }
 
@@ -174,9 +204,12 @@ TEST(Contract, HoldsEveryActiveUniformOfEveryProgram) {
         const ProgramLoader loader(dialect);
         for (const ProgramCase& program : programs()) {
             fragments.insert(program.fragment);
-            // every BRDF as 330; the programs' own text in each dialect, with one BRDF
-            const std::size_t choices =
-                dialect == Glsl::V330 ? program.choices.size() : std::min<std::size_t>(1, program.choices.size());
+            // every BRDF as 330; the programs' own text in each dialect, with one BRDF, and with five reliefs
+            const ShaderDefines& firstChoice = program.choices.front();
+            const bool relief = !firstChoice.empty() && startsWith(firstChoice.back().first, "NACRE_BUMP");
+            const std::size_t choices = dialect == Glsl::V330
+                                            ? program.choices.size()
+                                            : std::min<std::size_t>(relief ? 5 : 1, program.choices.size());
             for (const ShaderDefines& defines : std::span(program.choices).first(choices)) {
                 const Program linked =
                     loader.compile(program.vertex, readShader({shaderFolder()}, program.fragment), defines);

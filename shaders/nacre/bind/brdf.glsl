@@ -2,6 +2,11 @@
 #ifndef NACRE_BIND_BRDF_GLSL
 #define NACRE_BIND_BRDF_GLSL
 
+// Alpha of the slopes that a relief's level leaves out (nacre/bind/lamps.glsl sets it). Tables keep their own width.
+#ifdef NACRE_BUMP_ROUGHNESS
+float nacre_brdf_added_alpha = 0.0;
+#endif
+
 #ifdef NACRE_DIRECT
 #include "nacre/bind/direct_brdf.glsl"
 #else

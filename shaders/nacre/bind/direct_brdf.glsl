@@ -32,6 +32,17 @@
 // normalisation. 3: eta, f0, rs or the lobe's axis. 4: k. SGD: nacre/direct_sgd.glsl.
 uniform vec4 nacre_direct_params[16];
 
+// The microfacets' widths, with those of slopes that a relief's levels leave out.
+#ifdef NACRE_BUMP_ROUGHNESS
+#include "nacre/bump.glsl"
+vec2 nacre_direct_widths() {
+    return vec2(nacre_bump_alpha(nacre_direct_params[0].x, nacre_brdf_added_alpha),
+                nacre_bump_alpha(nacre_direct_params[0].y, nacre_brdf_added_alpha));
+}
+#else
+vec2 nacre_direct_widths() { return nacre_direct_params[0].xy; }
+#endif
+
 #if NACRE_DIRECT == NACRE_DIRECT_MICROFACET
 #include "nacre/direct_distribution.glsl"
 #include "nacre/direct_fresnel.glsl"
@@ -39,9 +50,9 @@ uniform vec4 nacre_direct_params[16];
 
 float nacre_direct_distribution(vec3 h) {
 #if NACRE_D == NACRE_D_BECKMANN
-    return nacre_distribution_beckmann(h, nacre_direct_params[0].x);
+    return nacre_distribution_beckmann(h, nacre_direct_widths().x);
 #elif NACRE_D == NACRE_D_GGX
-    return nacre_distribution_ggx(h, nacre_direct_params[0].xy);
+    return nacre_distribution_ggx(h, nacre_direct_widths());
 #else
     return nacre_distribution_gaussian(h, nacre_direct_params[0].x, nacre_direct_params[0].z);
 #endif
@@ -51,11 +62,11 @@ float nacre_direct_visibility(vec3 wi, vec3 wo) {
 #if NACRE_G == NACRE_G_V_CAVITY
     return nacre_visibility_v_cavity(wi, wo);
 #elif NACRE_G == NACRE_G_SMITH_CORRELATED
-    return nacre_visibility_ggx_correlated(wi, wo, nacre_direct_params[0].xy);
+    return nacre_visibility_ggx_correlated(wi, wo, nacre_direct_widths());
 #elif NACRE_D == NACRE_D_GGX
-    return nacre_visibility_ggx_smith(wi, wo, nacre_direct_params[0].xy);
+    return nacre_visibility_ggx_smith(wi, wo, nacre_direct_widths());
 #else
-    return nacre_visibility_beckmann_smith(wi, wo, nacre_direct_params[0].x);
+    return nacre_visibility_beckmann_smith(wi, wo, nacre_direct_widths().x);
 #endif
 }
 

@@ -73,8 +73,9 @@ vec3 nacre_env_weight(float cos_v) {
 #endif
 }
 
-// Radiance towards the eye; both unit, world directions. 0 where the surface is seen from behind.
-vec3 nacre_env_radiance(vec3 to_eye, vec3 n) {
+// Radiance towards the eye; both unit, world directions. 0 where the surface is seen from behind. sky: share of the
+// diffuse light that reaches the point.
+vec3 nacre_env_radiance(vec3 to_eye, vec3 n, float sky) {
     float cos_v = dot(n, to_eye);
     if (cos_v <= 0.0) return vec3(0.0);
     vec3 weight = nacre_env_weight(cos_v);
@@ -89,7 +90,7 @@ vec3 nacre_env_radiance(vec3 to_eye, vec3 n) {
     if (t != vec3(0.0)) rest += nacre_env_transmission_color * NACRE_ENV_TRANSMITTED(t);
 #endif
 #ifdef NACRE_ENV_DIFFUSE
-    rest += nacre_env_diffuse_color * NACRE_ENV_DIFFUSED(nacre_env_from_world * n);
+    rest += sky * nacre_env_diffuse_color * NACRE_ENV_DIFFUSED(nacre_env_from_world * n);
 #endif
 #if NACRE_ENV_COMBINE == NACRE_ENV_BLEND
     return nacre_env_blend(weight, mirror, rest);

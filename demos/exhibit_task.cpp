@@ -1,4 +1,4 @@
-#include "demos/environment_task.hpp"
+#include "demos/exhibit_task.hpp"
 
 #include <fmt/format.h>
 
@@ -8,6 +8,12 @@ namespace nacre {
 
 Surrounding Task::open(const std::string& name) const {
     Surrounding s = openSurrounding(name, options.worldFolder);
+    if (!s.note.empty()) notes.push_back(id + ": " + s.note);
+    return s;
+}
+
+ReliefSource Task::openHeights(const std::string& name, double scale) const {
+    ReliefSource s = openRelief(name, options.heightFolder, scale);
     if (!s.note.empty()) notes.push_back(id + ": " + s.note);
     return s;
 }

@@ -1,8 +1,9 @@
-// What the makers of environment exhibits share.
+// What the makers of exhibits share.
 #pragma once
 
-#include "demos/environment_exhibits.hpp"
 #include "demos/exhibit_builder.hpp"
+#include "demos/exhibit_list.hpp"
+#include "demos/relief.hpp"
 #include "demos/surrounding.hpp"
 
 namespace nacre {
@@ -16,7 +17,8 @@ struct Task {
 
     int size(int full) const { return options.quick ? full / 2 : full; }
     BuilderOptions builder() const { return {options.timingRepeats, options.progress}; }
-    Surrounding open(const std::string& name) const;  ///< notes what stands in
+    Surrounding open(const std::string& name) const;                        ///< notes what stands in
+    ReliefSource openHeights(const std::string& name, double scale) const;  ///< the same
 };
 
 /// The truth's samples, before the surrounding as it came.
@@ -25,6 +27,13 @@ std::vector<Rgb> shade(const Body& body, const SurroundedSurface& surface, const
 /// `nacre envmap` commands that make the exhibit's maps: the surrounding into a cube of the size that the filters start
 /// from, and from that one each of `filters` ("OUT.exr --lobe …"). Empty for a made-up sky.
 std::vector<std::string> envmapCommands(const Surrounding& s, int coarseSize, const std::vector<std::string>& filters);
+
+struct NamedExhibit {
+    const char* id;
+    Exhibit (*make)(const Task&);
+};
+const std::vector<NamedExhibit>& environmentExhibits();
+const std::vector<NamedExhibit>& bumpExhibits();
 
 /// environment_sweeps.cpp
 Exhibit ggxSweepExhibit(const Task& task);

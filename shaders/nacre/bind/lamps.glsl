@@ -1,0 +1,34 @@
+// What lamps do to a point of a surface, with a relief or without.
+#ifndef NACRE_BIND_LAMPS_GLSL
+#define NACRE_BIND_LAMPS_GLSL
+
+#include "nacre/bind/brdf.glsl"
+#include "nacre/bind/bump.glsl"
+#include "nacre/bind/lights.glsl"
+#include "nacre/frame.glsl"
+#include "nacre/light.glsl"
+
+// Sum over lights of f(wi, wo) cos(alpha) E, all vectors normalised in the pixel. to_eye: unit, world. Loops take no
+// `continue`: the shadow's derivatives must not stand in a branch.
+vec3 nacre_lamps(NacreBump point, vec3 to_eye, vec3 position) {
+#ifdef NACRE_BUMP_ROUGHNESS
+    nacre_brdf_added_alpha = point.alpha;
+#endif
+    vec3 wo = nacre_to_local(point.frame, to_eye);
+    vec3 sum = vec3(0.0);
+    for (int i = 0; i < NACRE_LIGHT_COUNT; ++i) {
+        vec4 light = nacre_light_position[i];
+        vec3 to_light = nacre_direction_to(light, position);
+        vec3 wi = nacre_to_local(point.frame, to_light);
+        float lit = nacre_bump_lit(point, to_light);
+        if (wi.z > 0.0 && wo.z > 0.0 && lit > 0.0)
+            sum += nacre_brdf(wi, wo) * (lit * wi.z * nacre_light_falloff(light, position)) * nacre_light_color[i];
+#ifdef NACRE_BUMP_INDIRECT
+        if (i == NACRE_BUMP_INDIRECT && wo.z > 0.0 && dot(point.mesh[2], to_light) > 0.0)
+            sum += point.indirect * nacre_light_color[i] * nacre_light_falloff(light, position);
+#endif
+    }
+    return sum;
+}
+
+#endif
