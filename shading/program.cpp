@@ -57,10 +57,10 @@ std::string typeName(GLenum type) {
             return "mat4";
         case GL_SAMPLER_2D:
             return "sampler2D";
-        case GL_SAMPLER_CUBE:
-            return "samplerCube";
         case GL_SAMPLER_2D_ARRAY:
             return "sampler2DArray";
+        case GL_SAMPLER_CUBE:
+            return "samplerCube";
         default:
             return fmt::format("type 0x{:04x}", type);
     }

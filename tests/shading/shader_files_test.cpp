@@ -62,6 +62,21 @@ std::vector<ShaderDefines> prefilterChoices() {
     return out;
 }
 
+/// Every step, with Lambert and with a BRDF, under a black sky and a surrounding.
+std::vector<ShaderDefines> reliefChoices() {
+    std::vector<ShaderDefines> out;
+    for (const char* step : {"GATHER", "SKY", "SEGMENT", "TOTAL", "LEAVES"})
+        for (const bool brdf : {true, false})
+            for (const bool cube : {true, false}) {
+                ShaderDefines defines = brdf ? factoredChoices().front() : ShaderDefines{};
+                if (brdf) defines.emplace_back("NACRE_RELIEF_BRDF", "1");
+                if (cube) defines.emplace_back("NACRE_RELIEF_SKY_CUBE", "1");
+                defines.emplace_back("NACRE_RELIEF_STEP", std::string("NACRE_RELIEF_") + step);
+                out.push_back(std::move(defines));
+            }
+    return out;
+}
+
 /// Every layout with every role; every weight and combination.
 std::vector<ShaderDefines> environmentChoices() {
     std::vector<ShaderDefines> out{{}};
@@ -166,6 +181,7 @@ std::vector<ProgramCase> programs() {
         both.push_back(std::move(defines));
     }
     out.push_back({"lit.vert.glsl", "lit_environment.frag.glsl", both});
+    out.push_back({"fullscreen.vert.glsl", "relief_light.frag.glsl", reliefChoices()});
     out.push_back({"lit.vert.glsl", "lit_environment.frag.glsl", combined({both.back()}, bumpChoices())});
     out.push_back({"lit.vert.glsl", "environment.frag.glsl", combined({surroundings.back()}, bumpChoices())});
     return out;
