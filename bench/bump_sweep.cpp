@@ -10,7 +10,9 @@
 #include "bump/horizon_ellipses.hpp"
 #include "bump/horizon_map.hpp"
 #include "bump/scatter_map.hpp"
+#include "bump/scattered_light.hpp"
 #include "reference/bump_error.hpp"
+#include "reference/scattered_light_error.hpp"
 
 namespace nacre::bench {
 namespace {
@@ -71,6 +73,30 @@ BumpMeasurement measureHorizonMap(const BenchRelief& relief, int azimuths, const
     m.wallSeconds = times.wall, m.cpuSeconds = times.cpu;
     m.misjudged = misjudgedBy(map, samples);
     m.detail = measureHorizons(drawHorizonSamples(relief.map, azimuths, 4000), map).rmseDegWorst;
+    return m;
+}
+
+/// A lamp that stands low: there is more to bounce.
+const Vec3 kLamp = glm::normalize(Vec3(1, 0.4, 0.6));
+constexpr int kScattered = 512;  // directions of the scatter map behind it
+
+ReliefLightSamples lightTruth(const BenchRelief& relief, int paths) {
+    ReliefLightOptions options;  // albedo 0.7, 3 bounces
+    options.light = kLamp;
+    options.paths = paths;
+    return drawReliefLightSamples(relief.map, options, 300);
+}
+
+BumpMeasurement measureLight(const BenchRelief& relief, const ScatterMap& scatter, const ReliefLightSamples& truth,
+                             int paths) {
+    BumpMeasurement m = begin(relief, "bounced light", fmt::format("{} paths", paths), 6);
+    ScatteredLight light;
+    const Times times = timed([&] { light = scatterLight(relief.map, scatter, {.light = kLamp, .paths = paths}); });
+    m.wallSeconds = times.wall, m.cpuSeconds = times.cpu;
+    m.usual = paths == ScatteredLightOptions{}.paths;
+    const ScatteredLightError error = measureScatteredLight(truth, light);
+    m.misjudged = error.total;
+    m.detail = error.indirect;
     return m;
 }
 
@@ -149,6 +175,11 @@ std::vector<BumpMeasurement> sweepReliefs(const std::vector<BenchRelief>& relief
                 out.push_back(measureEllipses(relief, count, fit, samples));
         for (const int count : azimuths) out.push_back(measureHorizonMap(relief, count, samples));
         for (const int count : scattered) out.push_back(measureScatterMap(relief, count));
+        report(options.progress, "light that bounces in " + relief.name, 0);
+        const ReliefLightSamples truth = lightTruth(relief, options.quick ? 400 : 4000);
+        const ScatterMap scatter = makeScatterMap(relief.map, {.directions = options.quick ? 128 : kScattered});
+        for (const int paths : options.quick ? std::vector{100} : std::vector{12, 25, 50, 100, 200, 400})
+            out.push_back(measureLight(relief, scatter, truth, paths));
     }
     for (const int size : options.quick ? std::vector{128} : std::vector{128, 256, 512, 1024}) {
         report(options.progress, fmt::format("seconds of {}", size), 0);
@@ -167,6 +198,8 @@ std::vector<Bar> measureBumpBars(const std::vector<BenchRelief>& reliefs, const 
         beyond{"scatter map, 64 directions", "beyond one texel", 0.005};
     Bar misjudged{"ellipses, 128 directions", "texels and lights misjudged", 0.04};
     Bar gain{"ellipses, 128 directions", "misjudged, as a share of the radii-only fit's", 0.75};
+    Bar light{"light of 3 bounces, 100 paths, albedo 0.7", "relative rmse", 0.05},
+        bounced{"the same, without the direct light", "relative rmse", 0.05};
     Bar threads{"horizons, rays, ellipses, 1 thread against 7", "values with other bits", 0};
     for (const BenchRelief& relief : reliefs) {
         report(options.progress, "bars on " + relief.name, 0);
@@ -184,12 +217,16 @@ std::vector<Bar> measureBumpBars(const std::vector<BenchRelief>& reliefs, const 
         raise(misjudged, full, relief.name);
         raise(gain, full / radii, relief.name);
         raise(threads, threadDifferences(relief.map), relief.name);
+        const ScatterMap many = makeScatterMap(relief.map, {.directions = kScattered});
+        const BumpMeasurement lit = measureLight(relief, many, lightTruth(relief, options.large ? 4000 : 400), 100);
+        raise(light, lit.misjudged, relief.name);
+        raise(bounced, lit.detail, relief.name);
     }
     Bar frame{"bump-mapped frame, one light", "with soft ellipse shadows, times plain bump mapping's", 1.6};
     if (options.loader) {
         report(options.progress, "frames with and without shadows", 0);
         const HeightMap& map = reliefs.front().map;
-        BumpMaps maps{map.width(), map.height(), map.wrap, makeNormals(map), {}, fitEllipses(map), {}, {}};
+        BumpMaps maps{map.width(), map.height(), map.wrap, makeNormals(map), {}, fitEllipses(map), {}, {}, {}};
         const BumpCost cost = bumpCost(*options.loader, GpuBump(maps));
         raise(frame, std::max(cost.hardEllipse, cost.ellipse),
               fmt::format("{}, plain {:.2f} ms", reliefs.front().name, cost.plainMs));
@@ -199,7 +236,7 @@ std::vector<Bar> measureBumpBars(const std::vector<BenchRelief>& reliefs, const 
     Bar bake{"ellipses, 512, 128 directions", "seconds", 10};
     speed.atLeast = rays.atLeast = true;
     if (options.large) measureSpeeds(options.progress, speed, rays, bake, axes, others);
-    return {axes, others, speed, hit, beyond, rays, misjudged, gain, bake, frame, threads};
+    return {axes, others, speed, hit, beyond, rays, misjudged, gain, bake, light, bounced, frame, threads};
 }
 
 }  // namespace nacre::bench

@@ -51,9 +51,10 @@ void requireSizes(const BumpMaps& maps) {
                 "bump asset: scatter map: expected as many distances and weights as directions");
         for (const Image& image : s.distance) requireSize(maps, image, 1, "scatter map");
     }
+    if (maps.indirect) requireSize(maps, *maps.indirect, 3, "indirect light");
     if (maps.heights) requireSize(maps, *maps.heights, 1, "heights");
     require(maps.normals || (maps.horizons && maps.horizons->azimuths() > 0) || maps.ellipses ||
-                (maps.scatter && maps.scatter->count() > 0) || maps.heights,
+                (maps.scatter && maps.scatter->count() > 0) || maps.indirect || maps.heights,
             "bump asset: expected something to store, found nothing");
 }
 
@@ -109,6 +110,7 @@ Asset toAsset(const BumpMaps& maps, TexelFormat format) {
         asset.textures.push_back(makeTexture("ellipse1", kMapping, maps.ellipses->offset, format));
     }
     if (maps.scatter) addScatter(asset, *maps.scatter, format);
+    if (maps.indirect) asset.textures.push_back(makeTexture("indirect0", kMapping, *maps.indirect, format));
     if (maps.heights) addHeights(asset, *maps.heights);
     requireReadable(asset);
     return asset;

@@ -20,6 +20,8 @@ struct BumpMaps {
     std::optional<HorizonMap> horizons;
     std::optional<EllipseMap> ellipses;
     std::optional<ScatterMap> scatter;
+    std::optional<Image>
+        indirect;  ///< RGB radiance by one light of irradiance 1, what isn't direct (scattered_light.hpp)
     std::optional<Image> heights;  ///< HeightMap::heights, NaN = hole
 };
 
@@ -28,6 +30,7 @@ struct BumpMaps {
 ///   horizon0, horizon1, …  elevation [rad] towards azimuths 2πk/K, four a texture: part k/4, channel k mod 4
 ///   ellipse0, ellipse1     (m11, m12, m22); (o1, o2, share of the sky seen)
 ///   scatter0, scatter1, …  distance [texels] towards directions[k], −1 = miss, four a texture
+///   indirect0              RGB radiance by one light of irradiance 1 that has bounced; meta.light says which
 ///   height0                heights over texel size, always float; holes are meta.hole
 /// meta: size, wrap, surface, azimuths, directions, weights, normal_levels, roughness, hole. The caller adds what else
 /// is known. Unorm8 is not for scatter maps, whose misses would blur.

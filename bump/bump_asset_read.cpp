@@ -159,9 +159,10 @@ BumpMaps bumpFromAsset(const Asset& asset, const std::string& name) {
         out.ellipses = EllipseMap{reader.image("ellipse0", out.width, out.height, 3),
                                   reader.image("ellipse1", out.width, out.height, 3)};
     if (reader.has("scatter0")) out.scatter = readScatter(reader, out.width, out.height);
+    if (reader.has("indirect0")) out.indirect = reader.image("indirect0", out.width, out.height, 3);
     if (reader.has("height0")) out.heights = readHeights(reader, asset, out.width, out.height);
-    if (!out.normals && !out.horizons && !out.ellipses && !out.scatter && !out.heights)
-        reader.fail("", "a texture normal0, horizon0, ellipse0, scatter0 or height0", "none");
+    if (!out.normals && !out.horizons && !out.ellipses && !out.scatter && !out.indirect && !out.heights)
+        reader.fail("", "a texture normal0, horizon0, ellipse0, scatter0, indirect0 or height0", "none");
     return out;
 }
 

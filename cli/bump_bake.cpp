@@ -106,17 +106,27 @@ void bakeTheRest(const HeightMap& map, const BumpRequest& request, const Progres
         out.maps.scatter = makeScatterMap(map, {request.scatter, request.threads});
         out.times["scatter"] = timesOf(watch, "rays_per_second", texels(map) * request.scatter);
     }
+    if (request.indirect) {
+        report(progress, "indirect light", 0);
+        const Stopwatch watch;
+        constexpr int kDirections = 256;  // where no scatter map is asked for
+        const ScatterMap scatter =
+            out.maps.scatter ? *out.maps.scatter : makeScatterMap(map, {kDirections, request.threads});
+        out.light = scatterLight(map, scatter, request.light);
+        out.maps.indirect = out.light.indirect;
+        out.times["indirect"] = timesOf(watch, "", 0);
+    }
     if (request.heights) out.maps.heights = map.heights;
 }
 
 /// What an asset file holds at most, before the work rather than after it.
 void requireFits(const HeightMap& map, const BumpRequest& request, const std::string& output) {
-    std::size_t textures =
-        (request.horizon + 3) / 4 + (request.scatter + 3) / 4 + (request.ellipses ? 2 : 0) + (request.heights ? 1 : 0);
+    std::size_t textures = (request.horizon + 3) / 4 + (request.scatter + 3) / 4 + (request.ellipses ? 2 : 0) +
+                           (request.indirect ? 1 : 0) + (request.heights ? 1 : 0);
     if (request.normals)
         for (int edge = std::max(map.width(), map.height()); edge > 0; edge /= 2) ++textures;
-    const double layers = request.horizon + request.scatter + (request.ellipses ? 6 : 0) + (request.heights ? 1 : 0) +
-                          (request.normals ? (request.roughness ? 4 : 3) * 4 / 3.0 : 0);
+    const double layers = request.horizon + request.scatter + (request.ellipses ? 6 : 0) + (request.indirect ? 3 : 0) +
+                          (request.heights ? 1 : 0) + (request.normals ? (request.roughness ? 4 : 3) * 4 / 3.0 : 0);
     const double values = layers * texels(map);
     if (textures > exr::kMaxParts || values > static_cast<double>(exr::kMaxValues))
         throw Error(

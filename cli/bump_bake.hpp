@@ -6,6 +6,7 @@
 #include <string>
 
 #include "bump/bump_asset.hpp"
+#include "bump/scattered_light.hpp"
 #include "cli/bump_measure.hpp"
 #include "core/progress.hpp"
 
@@ -13,8 +14,10 @@ namespace nacre::cli {
 
 struct BumpRequest {
     bool normals = false, roughness = false, ellipses = false, heights = false;
-    int horizon = 0;  ///< azimuths of the horizon map; 0 = none
-    int scatter = 0;  ///< directions of the scatter map; 0 = none
+    int horizon = 0;              ///< azimuths of the horizon map; 0 = none
+    int scatter = 0;              ///< directions of the scatter map; 0 = none
+    bool indirect = false;        ///< light that bounces, by `light`
+    ScatteredLightOptions light;  ///< of irradiance 1
     EllipseOptions fit;
     TexelFormat format = TexelFormat::Half;
     std::optional<double> maxError;  ///< of the shadows: share of the pairs (texel, light) misjudged
@@ -23,8 +26,9 @@ struct BumpRequest {
 };
 
 struct BumpBake {
-    EllipseOptions fit;  ///< of maps.ellipses: a budget chooses its directions
-    BumpMaps maps;       ///< as baked; what is stored is rounded
+    EllipseOptions fit;    ///< of maps.ellipses: a budget chooses its directions
+    ScatteredLight light;  ///< with maps.indirect: all of it
+    BumpMaps maps;         ///< as baked; what is stored is rounded
     nlohmann::json times =
         nlohmann::json::object();  ///< one object a technique: seconds, cpu_seconds, texels, horizons or rays a second
     double seconds = 0, cpuSeconds = 0;

@@ -1,5 +1,7 @@
 #include "cli/bump_measure.hpp"
 
+#include "reference/scattered_light_error.hpp"
+
 #include "bump/bump_lookup.hpp"
 
 namespace nacre::cli {
@@ -58,6 +60,26 @@ static json scatterError(const HeightMap& map, const ScatterMap& stored, unsigne
     return {{"hit_mismatch", e.hitMismatch},
             {"beyond_one_texel", e.beyondOneTexel},
             {"hits", e.hits},
+            {"samples", e.samples}};
+}
+
+json measureIndirect(const HeightMap& map, const ScatteredLight& light, const ScatteredLightOptions& options,
+                     const Progress& progress) {
+    report(progress, "tracing paths", 0);
+    constexpr int kTexels = 300, kPaths = 1500;
+    ReliefLightOptions truth;
+    truth.light = options.light;
+    truth.irradiance = options.irradiance;
+    truth.albedo = [albedo = options.albedo](const Vec2&) { return albedo; };
+    truth.bounces = options.bounces;
+    truth.paths = kPaths;
+    truth.threads = options.threads;
+    const ScatteredLightError e = measureScatteredLight(drawReliefLightSamples(map, truth, kTexels, kBumpSeed), light);
+    return {{"relative_rmse", e.indirect},
+            {"relative_rmse_total", e.total},
+            {"noise", e.noise},
+            {"bias", e.bias},
+            {"share_of_total", e.share},
             {"samples", e.samples}};
 }
 

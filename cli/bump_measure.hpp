@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "bump/bump_asset.hpp"
+#include "bump/scattered_light.hpp"
 #include "core/progress.hpp"
 #include "reference/bump_error.hpp"
 
@@ -22,5 +23,10 @@ LitError measureShadows(const LitSamples& samples, const BumpMaps& stored);
 /// \param options  that the ellipses were fitted with
 nlohmann::json measureBump(const HeightMap& map, const BumpMaps& stored, const EllipseOptions& options,
                            TexelFormat format, const Progress& progress);
+
+/// Of light that bounced: relative_rmse, of all but the direct light, and of the total; noise, the truth's own share of
+/// the first; samples. \param light  with `indirect` as stored
+nlohmann::json measureIndirect(const HeightMap& map, const ScatteredLight& light, const ScatteredLightOptions& options,
+                               const Progress& progress);
 
 }  // namespace nacre::cli

@@ -9,6 +9,7 @@
 
 #include "bump/read_height.hpp"
 #include "cli/bump_bake.hpp"
+#include "cli/numbers.hpp"
 #include "cli/output_file.hpp"
 #include "cli/terminal.hpp"
 #include "cli/verb.hpp"
@@ -29,6 +30,7 @@ struct Settings {
     std::optional<double> scale, texelSize;
     HeightOptions in;
     BumpRequest wanted;
+    std::string light, albedo, lightFlag;  ///< lightFlag: the first option given that only --indirect takes
     bool asJson = false;
 };
 
@@ -44,17 +46,46 @@ void tellReport(const HeightReport& r, const Settings& s, const HeightMap& map) 
     }
 }
 
+/// "x,y,z" or, of colours, one number for all three.
+Vec3 threeNumbers(const std::string& flag, const std::string& text, bool one) {
+    double v[3];
+    if (parseNumbers(text, v)) return {v[0], v[1], v[2]};
+    double single[1];
+    if (!one || !parseNumbers(text, single))
+        throw UsageError(fmt::format("{}: expected {}three numbers separated by commas, found '{}'", flag,
+                                     one ? "one number or " : "", text));
+    return Vec3(single[0]);
+}
+
+ScatteredLightOptions lightOf(const Settings& s) {
+    ScatteredLightOptions out = s.wanted.light;
+    out.light = s.light.empty() ? Vec3(0.6, 0, 0.8) : threeNumbers("--light", s.light, false);
+    if (!isFinite(out.light) || !(out.light.z > 0))
+        throw UsageError(fmt::format("--light: expected a direction above the plane (z > 0), found '{}'", s.light));
+    out.light = glm::normalize(out.light);
+    if (!s.albedo.empty()) out.albedo = threeNumbers("--albedo", s.albedo, true);
+    if (!isFinite(out.albedo) || glm::any(glm::lessThan(out.albedo, Rgb(0))) ||
+        glm::any(glm::greaterThan(out.albedo, Rgb(1))))
+        throw UsageError(fmt::format("--albedo: expected numbers from 0 to 1, found '{}'", s.albedo));
+    return out;
+}
+
 /// The request with its defaults. \throws UsageError for options without what they belong to
 BumpRequest requestOf(const Settings& s) {
     BumpRequest out = s.wanted;
     out.normals = out.normals || out.roughness;
-    if (!out.normals && !out.ellipses && out.horizon == 0 && out.scatter == 0) out.normals = out.ellipses = true;
+    if (!out.normals && !out.ellipses && out.horizon == 0 && out.scatter == 0 && !out.indirect)
+        out.normals = out.ellipses = true;
     if (out.maxError && out.ellipses && out.horizon > 0)
         throw UsageError("--max-error: chooses the shadows, so expected --ellipses or --horizon, found both");
     if (out.maxError && !out.ellipses && out.horizon == 0)
         throw UsageError("--max-error: expected --ellipses or --horizon, whose shadows it is about, found neither");
     for (const auto& [flag, given] : {std::pair{"--directions", s.directions.has_value()}, {"--fit", !s.fit.empty()}})
         if (given && !out.ellipses) throw UsageError(fmt::format("{}: only --ellipses takes it", flag));
+    if (!s.lightFlag.empty() && !out.indirect)
+        throw UsageError(fmt::format("{}: only --indirect takes it", s.lightFlag));
+    if (out.indirect) out.light = lightOf(s);
+    out.light.threads = out.threads;
     out.format = texelFormatFromString(s.format);
     if (out.scatter > 0 && out.format == TexelFormat::Unorm8)
         throw UsageError("--format: --scatter takes half or float, found unorm8");
@@ -64,7 +95,8 @@ BumpRequest requestOf(const Settings& s) {
     return out;
 }
 
-void describe(json& meta, const Context& context, const Settings& s, const HeightField& field, const BumpBake& bake) {
+void describe(json& meta, const Context& context, const Settings& s, const BumpRequest& request,
+              const HeightField& field, const BumpBake& bake) {
     const HeightReport& r = field.report;
     const HeightRange range = heightRange(field.map);
     meta["source"] = s.source;
@@ -81,6 +113,13 @@ void describe(json& meta, const Context& context, const Settings& s, const Heigh
     if (bake.maps.ellipses)
         meta["ellipse_fit"] = {{"fit", bake.fit.fit == EllipseFit::Radii ? "radii" : "full"},
                                {"directions", bake.fit.directions}};
+    if (bake.maps.indirect) {
+        const ScatteredLightOptions& l = request.light;
+        meta["light"] = {{"direction", {l.light.x, l.light.y, l.light.z}},
+                         {"albedo", {l.albedo.x, l.albedo.y, l.albedo.z}},
+                         {"bounces", l.bounces},
+                         {"paths", l.paths}};
+    }
     meta["times"] = bake.times;
     meta["seconds"] = bake.seconds;
     meta["cpu_seconds"] = bake.cpuSeconds;
@@ -126,6 +165,13 @@ std::string summaryText(const Settings& s, const json& meta) {
                             meta["directions"].size(), number(e, "hit_mismatch"), number(e, "beyond_one_texel"));
         text += rateText(meta, "scatter", "rays_per_second", "rays");
     }
+    if (error.contains("indirect")) {
+        const json& e = error["indirect"];
+        text += fmt::format(
+            "  indirect  {} bounces, {} paths  relative rmse {:.3g}, with direct light {:.3g}  {:.2f} s\n",
+            meta["light"]["bounces"].get<int>(), meta["light"]["paths"].get<int>(), number(e, "relative_rmse"),
+            number(e, "relative_rmse_total"), meta["times"]["indirect"]["seconds"].get<double>());
+    }
     return text;
 }
 
@@ -144,13 +190,18 @@ void runBump(const Context& context, const Settings& s) {
     const HeightField field = readHeight(s.source, in);
     tellReport(field.report, s, field.map);
     const double readSeconds = reading.seconds();
-    const BumpBake bake = bakeBump(field.map, request, s.output, progress);
+    BumpBake bake = bakeBump(field.map, request, s.output, progress);
     Asset asset = toAsset(bake.maps, request.format);
-    describe(asset.meta, context, s, field, bake);
+    describe(asset.meta, context, s, request, field, bake);
     asset.meta["read_seconds"] = readSeconds;
     const Stopwatch measuring;
     // What is measured is what a reader gets.
-    asset.meta["error"] = measureBump(field.map, bumpFromAsset(asset, s.output), bake.fit, request.format, progress);
+    const BumpMaps stored = bumpFromAsset(asset, s.output);
+    asset.meta["error"] = measureBump(field.map, stored, bake.fit, request.format, progress);
+    if (stored.indirect) {
+        bake.light.indirect = *stored.indirect;
+        asset.meta["error"]["indirect"] = measureIndirect(field.map, bake.light, request.light, progress);
+    }
     asset.meta["measure_seconds"] = measuring.seconds();
     endProgress();
     writeAsset(asset, s.output);
@@ -197,11 +248,16 @@ constexpr const char* kDetails =
     "  --ellipses    the directions that see the sky as one ellipse, 1 - |M (lx, ly) + o|^2 >= 0: lit; and their "
     "share\n"
     "  --scatter M   for M directions (in the JSON), distance along the plane [texels] to the point seen, -1 = none\n"
+    "  --indirect    radiance (RGB) that leaves each texel after light has bounced, for one light of irradiance 1 on "
+    "a\n"
+    "                surface that faces it, matt texels: a texture for that light alone, to be added to direct light\n"
     "Error, of what is stored, against rays over the same surface: ellipses misjudged = the share of pairs (texel, "
     "light\n"
     "weighted by the cosine) called lit wrongly or dark wrongly, misjudged_radii_only = the same with radii alone "
     "fitted;\n"
-    "horizon max_rad, share_within_1e-3, rmse_deg; scatter hit_mismatch, beyond_one_texel.\n"
+    "horizon max_rad, share_within_1e-3, rmse_deg; scatter hit_mismatch, beyond_one_texel; indirect relative_rmse "
+    "against\n"
+    "traced paths, alone and with direct light (relative_rmse_total).\n"
     "--max-error E: shadows with at most E misjudged, by the first of ellipses of 32, 64, ... directions and horizon "
     "maps\n"
     "of 8, 16, ... 256 azimuths (with --horizon K: horizon maps up to K) that gets there.\n"
@@ -214,7 +270,17 @@ constexpr const char* kDetails =
 Verb bumpVerb(Context& context) {
     const auto s = std::make_shared<Settings>();
     BumpRequest& w = s->wanted;
-    Verb verb{"bump", "Bake a height field: normals, horizons, shadow ellipses, scatter maps", kDetails, {}, {}};
+    const auto ofLight = [s](const std::string& flag, std::function<void(const std::string&)> take) {
+        return [s, flag, take](const std::string& text) {
+            if (s->lightFlag.empty()) s->lightFlag = flag;
+            take(text);
+        };
+    };
+    Verb verb{"bump",
+              "Bake a height field: normals, horizons, shadow ellipses, scatter maps, bounced light",
+              kDetails,
+              {},
+              {}};
     verb.options = {
         {"source", "HEIGHT", "Picture of heights", into(s->source), true},
         {"-o,--output", "OUT.exr", "The asset to write", into(s->output), true},
@@ -233,6 +299,15 @@ Verb bumpVerb(Context& context) {
          {"full", "radii"}},
         {"--scatter", "M", "Scatter map of M directions",
          integerInto([&w](long long v) { w.scatter = static_cast<int>(v); }, 1, 256)},
+        {"--indirect", "", "Light of one lamp that has bounced", into(w.indirect)},
+        {"--light", "X,Y,Z", "Of --indirect: towards the lamp, any length (default 0.6,0,0.8)",
+         ofLight("--light", into(s->light))},
+        {"--albedo", "A", "Of --indirect: one number or r,g,b, 0 to 1 (default 0.7)",
+         ofLight("--albedo", into(s->albedo))},
+        {"--bounces", "B", "Of --indirect: how often light is reflected before the texel (default 3)",
+         ofLight("--bounces", integerInto([&w](long long v) { w.light.bounces = static_cast<int>(v); }, 0, 16))},
+        {"--paths", "P", "Of --indirect (default 100): more take longer and err less",
+         ofLight("--paths", integerInto([&w](long long v) { w.light.paths = static_cast<int>(v); }, 1, 100000))},
         {"--heights", "", "Store the heights too, so that eval knows the truth without the source", into(w.heights)},
         {"--scale", "S", "Height of the number 1; negative: upside down (default 1)",
          numberInto([s](double v) { s->scale = v; }, false, false)},

@@ -1,8 +1,7 @@
 // Bump maps: shadows by one ellipse a texel (HSE figure 9), a light that goes round, reliefs on curved objects.
 #include <fmt/format.h>
 
-#include "bump/bump_asset.hpp"
-#include "demos/exhibit_task.hpp"
+#include "demos/bump_parts.hpp"
 #include "demos/stage.hpp"
 #include "factorize/factorize.hpp"
 #include "shading/gpu_direct_brdf.hpp"
@@ -10,22 +9,15 @@
 #include "shading/primitives.hpp"
 
 namespace nacre {
-namespace {
 
-constexpr const char* kSection = "Bump maps that shadow themselves (HSE figure 9)";
-constexpr double kAlbedo = 0.7;
-constexpr const char* kLambert = "lambert:kd=0.7";
-constexpr double kRise = 24;  // of the heights, black to white [texels]
-
-BumpMaps mapsOf(const HeightMap& map) {
-    BumpMaps out{map.width(), map.height(), map.wrap, {}, {}, {}, {}, {}};
+BumpMaps bumpMapsOf(const HeightMap& map) {
+    BumpMaps out{map.width(), map.height(), map.wrap, {}, {}, {}, {}, {}, {}};
     out.normals = makeNormals(map);
     out.ellipses = fitEllipses(map);
     out.horizons = makeHorizonMap(map, 16);
     return out;
 }
 
-/// A square that fills the picture, seen from straight above: u to the right, v upwards.
 Body planeBody(int size) {
     Camera camera;
     camera.orthographic = true;
@@ -33,13 +25,18 @@ Body planeBody(int size) {
     return {makeQuad(2, 1), camera, size};
 }
 
-Rgb lambert(const Vec3&, const Vec3&) { return Rgb(kAlbedo / kPi); }
-
-/// A lamp at an azimuth from u towards v and an elevation above the plane, that makes a facing white surface white.
 Light lampFromDeg(double azimuthDeg, double elevationDeg) {
     const double a = azimuthDeg * kPi / 180, e = elevationDeg * kPi / 180;
     return {true, {std::cos(e) * std::cos(a), std::cos(e) * std::sin(a), std::sin(e)}, Rgb(kPi)};
 }
+
+namespace {
+
+constexpr const char* kSection = "Bump maps that shadow themselves (HSE figure 9)";
+constexpr double kAlbedo = 0.7;
+constexpr const char* kLambert = "lambert:kd=0.7";
+
+Rgb lambert(const Vec3&, const Vec3&) { return Rgb(kAlbedo / kPi); }
 
 const char* words(BumpShadow shadow) {
     switch (shadow) {
@@ -59,13 +56,13 @@ const char* words(BumpShadow shadow) {
 
 std::vector<std::string> bumpCommands(const ReliefSource& source) {
     if (source.file.empty()) return {};
-    return {
-        fmt::format("nacre bump {} -o relief.exr --scale {:g} --normals --ellipses --horizon 16", source.file, kRise)};
+    return {fmt::format("nacre bump {} -o relief.exr --scale {:g} --normals --ellipses --horizon 16", source.file,
+                        kReliefRise)};
 }
 
 Exhibit shadows(const Task& task) {
-    const ReliefSource source = task.openHeights("rockwall_height", kRise);
-    const GpuBump map(mapsOf(source.map));
+    const ReliefSource source = task.openHeights("rockwall_height", kReliefRise);
+    const GpuBump map(bumpMapsOf(source.map));
     const GpuDirectBrdf brdf = *directBrdf(openReflectance(kLambert));
     const Body plane = planeBody(task.size(288));
     ExhibitBuilder builder(task.loader, task.id, task.builder());
@@ -99,8 +96,8 @@ Exhibit shadows(const Task& task) {
 }
 
 Exhibit lightRound(const Task& task) {
-    const ReliefSource source = task.openHeights("rockwall_height", kRise);
-    const GpuBump map(mapsOf(source.map));
+    const ReliefSource source = task.openHeights("rockwall_height", kReliefRise);
+    const GpuBump map(bumpMapsOf(source.map));
     const GpuDirectBrdf brdf = *directBrdf(openReflectance(kLambert));
     const Body plane = planeBody(task.size(160));
     ExhibitBuilder builder(task.loader, task.id, task.builder());
@@ -126,8 +123,8 @@ Exhibit lightRound(const Task& task) {
 }
 
 Exhibit onObjects(const Task& task) {
-    const ReliefSource source = task.openHeights("rockwall_height", kRise);
-    const GpuBump map(mapsOf(source.map));
+    const ReliefSource source = task.openHeights("rockwall_height", kReliefRise);
+    const GpuBump map(bumpMapsOf(source.map));
     const std::string copper =
         "torrance-sparrow:d=ggx,alpha=0.3,f=conductor,eta=0.27/0.95/1.17,k=3.4/2.58/2.4,ks=1,kd=0";
     const Reflectance metal = openReflectance(copper), stone = openReflectance(kLambert);
@@ -168,8 +165,10 @@ Exhibit onObjects(const Task& task) {
 }  // namespace
 
 const std::vector<NamedExhibit>& bumpExhibits() {
-    static const std::vector<NamedExhibit> list{
-        {"bump-shadows", shadows}, {"bump-round", lightRound}, {"bump-objects", onObjects}};
+    static const std::vector<NamedExhibit> list{{"bump-shadows", shadows},
+                                                {"bump-round", lightRound},
+                                                {"bump-objects", onObjects},
+                                                {"bump-indirect", indirectExhibit}};
     return list;
 }
 
