@@ -22,8 +22,8 @@ struct BumpMeasurement {
     double wallSeconds = 0;
     double misjudged = 0;  ///< share of texels and lights, of shadows; of scatter maps: hit or miss wrong; of light
                            ///< that bounces: relative rmse of all light
-    double detail = 0;  ///< horizons: rmse of the worst azimuth [degrees]; scatter maps: beyond one texel; light:
-                        ///< without the direct
+    double detail = 0;     ///< horizons: rmse of the worst azimuth [degrees]; scatter maps: beyond one texel; light:
+                           ///< without the direct
 };
 
 struct BumpSweepOptions {

@@ -61,6 +61,16 @@ std::vector<Shadows> candidates(const BumpRequest& request) {
 
 std::size_t bytesOf(const BumpMaps& maps, TexelFormat format) { return toAsset(maps, format).bytes(); }
 
+/// An asset file has room for it, beside the rest.
+bool isStorable(const BumpMaps& maps, TexelFormat format) {
+    try {
+        toAsset(maps, format);
+        return true;
+    } catch (const StorageError&) {
+        return false;
+    }
+}
+
 /// The first candidate within both budgets joins `bake`.
 void searchShadows(const HeightMap& map, const BumpRequest& request, const std::string& output,
                    const Progress& progress, BumpBake& bake) {
@@ -76,6 +86,7 @@ void searchShadows(const HeightMap& map, const BumpRequest& request, const std::
         bakeShadows(map, request, candidate, one);
         one.seconds = bake.seconds + baking.seconds();
         one.cpuSeconds = bake.cpuSeconds + baking.cpuSeconds();
+        if (!isStorable(one.maps, request.format)) continue;
         const std::size_t bytes = bytesOf(one.maps, request.format);
         if (request.maxBytes && bytes > *request.maxBytes) continue;
         const double misjudged = measureShadows(samples, asStored(one.maps, request.format, output)).misjudged;

@@ -106,7 +106,8 @@ static int parseAndRun(int argc, const char* const* argv) {
     app.set_version_flag("--version", "nacre " + nacreVersion());
     app.set_help_all_flag("--help-all", "The help of every verb");
     app.require_subcommand(1);
-    app.footer("nacre VERB --help tells more.");
+    app.footer(
+        "nacre VERB --help tells more.\nExit code: 0 done, 1 the work failed (a file, a budget), 2 wrong usage.");
     const Verb* chosen = nullptr;
     for (const Verb& verb : verbs) addVerb(app, verb, context, chosen);
     try {

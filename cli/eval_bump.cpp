@@ -84,7 +84,16 @@ std::optional<Relief> truthOf(const Asset& asset, const BumpMaps& maps, const st
     return Relief(field.map);
 }
 
-Vec2 texelsOf(const Evaluator& e, const Vec2& uv) { return uv * Vec2(e.maps.width, e.maps.height); }
+/// Beside a texel's centre, where four patches meet in a crease, the truth is another one than at it: a centre that was
+/// printed with few digits is still meant as one.
+Vec2 texelsOf(const Evaluator& e, const Vec2& uv) {
+    constexpr double kMeant = 2e-3;  // texels
+    const auto meant = [](double x) {
+        const double centre = std::floor(x) + 0.5;
+        return std::abs(x - centre) < kMeant ? centre : x;
+    };
+    return {meant(uv.x * e.maps.width), meant(uv.y * e.maps.height)};
+}
 
 std::string litLine(const Evaluator& e, const BumpQuery& q) {
     const int lit = litMargin(e.maps, q.uv.x, q.uv.y, q.direction) >= 0;

@@ -38,6 +38,9 @@ struct Settings {
 void tellReport(const HeightReport& r, const Settings& s, const HeightMap& map) {
     if (r.holes > 0)
         tell(fmt::format("{}: {} of {} texels are holes (no data)", r.path, r.holes, map.heights.texelCount()));
+    if (r.unit == 1 && r.sampleType.find("int") != std::string::npos && !s.texelSize && !s.scale)
+        tell(fmt::format("{}: numbers taken as heights in texels; --texel-size says how long a texel's edge is",
+                         r.path));
     if (r.unit != 1 && !s.scale && !s.texelSize) {
         const HeightRange range = heightRange(map);
         tell(
@@ -191,6 +194,9 @@ void runBump(const Context& context, const Settings& s) {
     tellReport(field.report, s, field.map);
     const double readSeconds = reading.seconds();
     BumpBake bake = bakeBump(field.map, request, s.output, progress);
+    if (request.ellipses && !bake.maps.ellipses)
+        tell(fmt::format("{}: no ellipses are within --max-error {:g}: a horizon map of {} azimuths is", s.output,
+                         *request.maxError, bake.maps.horizons->azimuths()));
     Asset asset = toAsset(bake.maps, request.format);
     describe(asset.meta, context, s, request, field, bake);
     asset.meta["read_seconds"] = readSeconds;
@@ -234,7 +240,7 @@ constexpr const char* kDetails =
     "as\n"
     "they are. Colours need --channel unless R = G = B. NaN is an error unless --nodata nan; a GeoTIFF's own nodata "
     "number\n"
-    "makes holes too. Holes cast no shadow and are always lit.\n"
+    "makes holes too. Holes cast no shadow and are lit by any light above the plane.\n"
     "u runs along columns, v along rows from row 0, the file's first row; z points out of the surface, and directions "
     "are\n"
     "(x, y, z) = (along u, along v, out). Between four texel centres the surface is their bilinear patch; beyond the "
@@ -251,14 +257,16 @@ constexpr const char* kDetails =
     "  --indirect    radiance (RGB) that leaves each texel after light has bounced, for one light of irradiance 1 on "
     "a\n"
     "                surface that faces it, matt texels: a texture for that light alone, to be added to direct light\n"
-    "Error, of what is stored, against rays over the same surface: ellipses misjudged = the share of pairs (texel, "
+    "Error, of what is stored, against rays over the same surface: at texel centres: ellipses misjudged = the share of "
+    "pairs (texel, "
     "light\n"
     "weighted by the cosine) called lit wrongly or dark wrongly, misjudged_radii_only = the same with radii alone "
     "fitted;\n"
     "horizon max_rad, share_within_1e-3, rmse_deg; scatter hit_mismatch, beyond_one_texel; indirect relative_rmse "
     "against\n"
     "traced paths, alone and with direct light (relative_rmse_total).\n"
-    "--max-error E: shadows with at most E misjudged, by the first of ellipses of 32, 64, ... directions and horizon "
+    "--max-error E: shadows with at most E misjudged, by the first of ellipses of 32, 64, ... directions (up to "
+    "--directions) and horizon "
     "maps\n"
     "of 8, 16, ... 256 azimuths (with --horizon K: horizon maps up to K) that gets there.\n"
     "Examples: a picture whose white is 24 texels high; an elevation model in metres with texels of 90 m:\n"
@@ -323,7 +331,13 @@ Verb bumpVerb(Context& context) {
          false,
          {"auto", "r", "g", "b", "a", "y"}},
         {"--format", "NAME", "Storage (default half)", into(s->format), false, {"half", "float", "unorm8"}},
-        {"--max-error", "E", "Budget: share of shadows misjudged", positiveInto([&w](double v) { w.maxError = v; })},
+        {"--max-error", "E", "Budget: share of shadows misjudged", positiveInto([&w](double v) {
+             constexpr double kLeast = 1.0 / kBumpSamples;
+             if (v > 1 || v < kLeast)
+                 throw UsageError(fmt::format(
+                     "expected a share from {:g}, which the samples can tell, to 1, found {:g}", kLeast, v));
+             w.maxError = v;
+         })},
         {"--max-bytes", "B", "Budget: bytes of all textures",
          integerInto([&w](long long v) { w.maxBytes = static_cast<std::size_t>(v); }, 1, 1ll << 40)},
         {"--threads", "N", "0 = all cores; the same bits for any",

@@ -11,7 +11,7 @@ namespace nacre::exr {
 
 inline constexpr const char* kAttribute = "nacre";  ///< the string attribute of part 0
 inline constexpr int kMaxEdge = 16384;              ///< largest texture edge [texels]
-inline constexpr std::size_t kMaxParts = 64;
+inline constexpr std::size_t kMaxParts = 160;
 inline constexpr std::size_t kMaxValues = std::size_t{1} << 27;  ///< texels × channels of all parts together
 inline constexpr std::uint64_t kMaxFileBytes = std::uint64_t{1} << 30;
 

@@ -72,7 +72,7 @@ static std::string metadataText(const Asset& asset) {
 static void requireWritable(const Asset& asset) {
     require(!asset.kind.empty(), "writeAsset: kind is empty");
     require(asset.meta.is_object(), "writeAsset: meta must be a JSON object");
-    require(!asset.textures.empty() && asset.textures.size() <= exr::kMaxParts, "writeAsset: needs 1 to 64 textures");
+    require(!asset.textures.empty() && asset.textures.size() <= exr::kMaxParts, "writeAsset: needs 1 to 160 textures");
     std::set<std::string> names;
     std::size_t values = 0;
     for (const AssetTexture& t : asset.textures) {

@@ -87,7 +87,7 @@ static ImageFile readByOiio(const fs::path& path, Samples samples) {
     const bool failed = module.read(path.c_str(), &raw) != 0;
     const std::unique_ptr<NacreOiioImage, NacreOiioFree> releaseLater(&raw, module.free);
     if (failed)
-        throw Error(fmt::format("{}: expected a picture with edges of at most {}, found {}", path.string(),
+        throw Error(fmt::format("{}: expected a complete picture with edges of at most {}, found: {}", path.string(),
                                 exr::kMaxEdge, oneLine(raw.message)));
     ImageFile out;
     out.format = raw.format;

@@ -91,8 +91,8 @@ TEST(BumpAsset, EveryFormatAndEveryTechniqueAlone) {
 
 TEST(BumpAsset, WhatAReaderWouldRefuseIsNotWritten) {
     BumpMaps maps = everything();
-    maps.horizons->elevation.resize(260, filled(1, 0));
-    EXPECT_THAT(messageOf<StorageError>([&] { toAsset(maps); }), HasSubstr("64 textures"));
+    maps.horizons->elevation.resize(700, filled(1, 0));
+    EXPECT_THAT(messageOf<StorageError>([&] { toAsset(maps); }), HasSubstr("160 textures"));
     maps = everything();
     maps.ellipses->shape.at(5, 0, 1) = 1e6f;
     EXPECT_THAT(messageOf<StorageError>([&] { toAsset(maps); }), AllOf(HasSubstr("ellipse0"), HasSubstr("(5, 0)")));
