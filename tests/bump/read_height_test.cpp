@@ -138,7 +138,7 @@ TEST(ReadHeight, CutFilesAreRefusedInOneLine) {
         EXPECT_EQ(message.find('\n'), std::string::npos);
     }
     writeFile(scratch / "a.txt", "no picture");
-    EXPECT_THAT(readError(scratch / "a.txt"), HasSubstr("a.txt: expected a picture"));
+    EXPECT_THAT(readError(scratch / "a.txt"), HasSubstr("a.txt: expected a complete picture"));
     EXPECT_THAT(readError(scratch / "none.png"), HasSubstr("found none"));
 }
 

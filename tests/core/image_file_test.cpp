@@ -184,7 +184,7 @@ TEST(ImageFileOther, FloatsAreLinear) {
 TEST(ImageFileOther, RefusesWhatIsNoPictureAndAMissingModule) {
     const Scratch scratch;
     writeFile(scratch / "a.txt", "no picture");
-    EXPECT_THAT(readError(scratch / "a.txt"), HasSubstr("a.txt: expected a picture"));
+    EXPECT_THAT(readError(scratch / "a.txt"), HasSubstr("a.txt: expected a complete picture"));
     writeFile(scratch / "empty", "");
     EXPECT_THAT(readError(scratch / "empty"), HasSubstr("an empty file"));
     EXPECT_THAT(readError(scratch / "none.exr"), HasSubstr("expected a file, found none"));
