@@ -3,6 +3,7 @@
 #pragma once
 
 #include <functional>
+#include <memory>
 #include <vector>
 
 #include "bump/height_map.hpp"
@@ -101,7 +102,7 @@ private:
     int columns_ = 0, rows_ = 0;
     double cosine_ = 1, sine_ = 0;
     float highest_ = kHole;
-    std::vector<float> heights_;
+    std::unique_ptr<float[]> heights_;
     SweepCells bounds_, farBounds_;
     std::vector<const float*> rowStart_;
     std::vector<int> columnStart_, along_, down_;

@@ -45,7 +45,7 @@ void SweepGrid::fill(const HeightMap& map) {
     along_ = places(!swapped_, stride, swapped_ ? flipY_ : flipX_);
     down_ = places(swapped_, rows_, swapped_ ? flipX_ : flipY_);
     const std::vector<float>& from = map.heights.data();
-    heights_.resize(static_cast<std::size_t>(stride) * rows_);
+    heights_ = std::make_unique_for_overwrite<float[]>(static_cast<std::size_t>(stride) * rows_);
     for (int y = 0; y < rows_; ++y)
         for (int x = 0; x < stride; ++x) {
             const float z = from[static_cast<std::size_t>(along_[x] + down_[y])];
