@@ -54,8 +54,8 @@ std::string summaryTable(const Gallery& gallery) {
 
 std::string exhibitTable(const Gallery& gallery) {
     if (gallery.exhibits.empty()) return {};
-    std::string html =
-        "<table class=\"cards\">" + headRowHtml({"environment maps", "lowest PSNR", "longest frame"}) + "<tbody>\n";
+    std::string html = "<table class=\"cards\">" +
+                       headRowHtml({"environment and bump maps", "lowest PSNR", "longest frame"}) + "<tbody>\n";
     for (const Exhibit& e : gallery.exhibits) {
         const std::optional<double> psnr = lowestPsnr(e), frame = longestFrame(e);
         html += fmt::format("<tr><td><a href=\"#{}\">{}</a></td>", e.id, escapeHtml(e.title)) +
@@ -158,7 +158,10 @@ std::string introduction(const Gallery& gallery) {
         html +=
             "<p>Under the environment maps the light is a whole surrounding, filtered beforehand by the surface's lobe "
             "and looked up once a pixel. There the reference sums the lobe over every texel of the surrounding for "
-            "each pixel, with exact Fresnel factors.</p>\n";
+            "each pixel, with exact Fresnel factors. Of bump maps it follows rays over the relief's own surface; the "
+            "lowest "
+            "PSNR there is that of plain bump mapping, without shadows or bounces, which stands beside for "
+            "comparison.</p>\n";
     html += fmt::format("<p class=\"soft\">nacre {}; {}; {}; made in {} s{}</p>\n", escapeHtml(gallery.version),
                         escapeHtml(gallery.renderer), escapeHtml(gallery.machine), formatNumber(gallery.seconds),
                         gallery.quick ? "; <strong>quick run: small pictures, few samples</strong>" : "");
