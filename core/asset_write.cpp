@@ -82,7 +82,8 @@ static void requireWritable(const Asset& asset) {
                 fmt::format("writeAsset: texture {}: edges must be 1 to {}", t.name, exr::kMaxEdge));
         values += t.image.data().size();
         for (const float v : t.image.data())
-            require(std::isfinite(v) && (t.format == TexelFormat::Float || std::abs(v) <= 65504.0f),
+            if (!std::isfinite(v) || (t.format != TexelFormat::Float && std::abs(v) > 65504.0f))
+                throw std::invalid_argument(
                     fmt::format("writeAsset: texture {}: {} does not fit {}", t.name, v, toString(t.format)));
         for (int c = 0; c < 4; ++c)
             require(std::isfinite(t.scale[c]) && std::isfinite(t.bias[c]),
