@@ -121,9 +121,13 @@ ScatterMap makeScatterMap(const HeightMap& map, const ScatterOptions& options) {
         const double across = std::sqrt(std::max(0.0, 1 - z * z));
         out.directions.push_back({across * std::cos(azimuth), across * std::sin(azimuth), z});
         out.weights.push_back(1 / (count * density.at(z)));
-        out.distance.emplace_back(map.width(), map.height(), 1);
-        out.distance.back().data() = rayDistances(map, out.directions.back(), options.threads);
     }
+    out.distance.resize(out.directions.size());
+    // Directions side by side: so turning the map for each is shared out too.
+    parallelFor(out.distance.size(), options.threads, [&](std::size_t i) {
+        out.distance[i] = Image(map.width(), map.height(), 1);
+        out.distance[i].data() = rayDistances(map, out.directions[i], count > 1 ? 1 : options.threads);
+    });
     return out;
 }
 
