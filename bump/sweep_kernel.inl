@@ -33,6 +33,10 @@ NACRE_INLINE Mask exists(const SweepGrid& grid, const SweepStep& step, int x, in
     return grid.sine() > 0 ? patch(step.row) : patch(step.row) | patch(grid.rowBefore(y, step.row) - y);
 }
 
+/// A patch rises above the chord along the ray by at most this times its twist: cosine · sine · length²/4, and
+/// length ≤ 1/cosine.
+NACRE_INLINE float largestLift(const SweepGrid& grid) { return static_cast<float>(grid.sine() / grid.cosine() / 4); }
+
 constexpr float kTolerance = 1e-3f;      // of a slope: smaller gains are not looked for
 constexpr float kBendTolerance = 4e-3f;  // nor are these, of patches that bend above their chords: rarer, and dearer
 
@@ -143,8 +147,7 @@ NACRE_INLINE void horizonOf(const SweepGrid& grid, const SweepPath& path, int x,
         c.slope[v] = entry[v] = c.start[v] - c.start[v];
         c.chunk[v] = Mask{};
     }
-    // A patch rises above the chord along the ray by at most twist · cosine · sine · length²/4, length ≤ 1/cosine.
-    const float liftOfTwist = static_cast<float>(grid.sine() / grid.cosine() / 4);
+    const float liftOfTwist = largestLift(grid);
     const auto boundOf = [&](std::size_t i) -> const SweepBound& {
         return grid.bound(x + path.chunks[i].column, y + path.chunks[i].row);
     };
@@ -196,7 +199,7 @@ NACRE_INLINE Floats hitDistance(const Hit& h, bool first) {
 template <bool holes>
 NACRE_INLINE void raysOf(const SweepGrid& grid, const SweepPath& path, float rise, int x, int y, float* distances) {
     const float bend = static_cast<float>(grid.cosine() * grid.sine());
-    const float liftOfTwist = static_cast<float>(grid.sine() / grid.cosine() / 4);  // as in horizon
+    const float liftOfTwist = largestLift(grid);
     Floats start[kVectors], f0[kVectors], distance[kVectors];
     Mask done[kVectors];
     for (int v = 0; v < kVectors; ++v) {

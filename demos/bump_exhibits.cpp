@@ -60,24 +60,40 @@ std::vector<std::string> bumpCommands(const ReliefSource& source) {
                         kReliefRise)};
 }
 
+/// A matt wall seen from above, in the light of one lamp. Must outlive the builders that its panels go to.
+struct Wall {
+    const Task& task;
+    ReliefSource source = task.openHeights("rockwall_height", kReliefRise);
+    GpuBump map{bumpMapsOf(source.map)};
+    GpuDirectBrdf brdf = *directBrdf(openReflectance(kLambert));
+    Body plane;
+
+    Wall(const Task& forTask, int size) : task(forTask), plane(planeBody(task.size(size))) {}
+
+    std::vector<Rgb> truth(const Light& lamp) const {
+        return shadeRelief(plane.traced, source.map, {.lights = {lamp}, .brdf = lambert});
+    }
+    void panel(ExhibitBuilder& builder, const std::string& label, const Light& lamp, BumpShadow shadow,
+               const std::vector<Rgb>& expected) const {
+        const LitView view{plane.camera, {lamp}, Rgb(0)};
+        const auto draw = [this, view, shadow](const RenderTarget& target) {
+            renderDirect(task.loader, target, plane.gpu, view, brdf, BumpSurface{.map = &map, .shadow = shadow});
+        };
+        builder.panel(label, plane, draw, {}, expected);
+    }
+};
+
 Exhibit shadows(const Task& task) {
-    const ReliefSource source = task.openHeights("rockwall_height", kReliefRise);
-    const GpuBump map(bumpMapsOf(source.map));
-    const GpuDirectBrdf brdf = *directBrdf(openReflectance(kLambert));
-    const Body plane = planeBody(task.size(288));
+    const Wall wall(task, 288);
     ExhibitBuilder builder(task.loader, task.id, task.builder());
     for (const double elevation : {40.0, 15.0}) {
-        const LitView view{plane.camera, {lampFromDeg(150, elevation)}, Rgb(0)};
+        const Light lamp = lampFromDeg(150, elevation);
         report(task.options.progress, task.id + ": reference", 0);
-        const std::vector<Rgb> truth = shadeRelief(plane.traced, source.map, {.lights = view.lights, .brdf = lambert});
+        const std::vector<Rgb> truth = wall.truth(lamp);
         builder.row(fmt::format("Light from the upper left, {} degrees above the plane", elevation));
         for (const BumpShadow shadow :
-             {BumpShadow::None, BumpShadow::HardEllipse, BumpShadow::Ellipse, BumpShadow::Horizon}) {
-            const auto draw = [&, view, shadow](const RenderTarget& target) {
-                renderDirect(task.loader, target, plane.gpu, view, brdf, BumpSurface{.map = &map, .shadow = shadow});
-            };
-            builder.panel(words(shadow), plane, draw, {}, truth);
-        }
+             {BumpShadow::None, BumpShadow::HardEllipse, BumpShadow::Ellipse, BumpShadow::Horizon})
+            wall.panel(builder, words(shadow), lamp, shadow, truth);
     }
     Exhibit e;
     e.section = kSection;
@@ -89,35 +105,27 @@ Exhibit shadows(const Task& task) {
         "horizon "
         "map costs 16 numbers a texel here. The reference follows a ray from each point over the relief's own surface.";
     e.scene =
-        fmt::format("Square seen from above, u to the right and v upwards, albedo {}; {}.", kAlbedo, source.words);
-    e.commands = bumpCommands(source);
+        fmt::format("Square seen from above, u to the right and v upwards, albedo {}; {}.", kAlbedo, wall.source.words);
+    e.commands = bumpCommands(wall.source);
     builder.finish(e, 1);
     return e;
 }
 
 Exhibit lightRound(const Task& task) {
-    const ReliefSource source = task.openHeights("rockwall_height", kReliefRise);
-    const GpuBump map(bumpMapsOf(source.map));
-    const GpuDirectBrdf brdf = *directBrdf(openReflectance(kLambert));
-    const Body plane = planeBody(task.size(160));
+    const Wall wall(task, 160);
     ExhibitBuilder builder(task.loader, task.id, task.builder());
     for (int k = 0; k < 8; ++k) {
         if (k % 4 == 0)
             builder.row(k == 0 ? "Light 20 degrees above the plane, from the right (u) and on towards v" : "");
-        const LitView view{plane.camera, {lampFromDeg(45 * k, 20)}, Rgb(0)};
-        const std::vector<Rgb> truth = shadeRelief(plane.traced, source.map, {.lights = view.lights, .brdf = lambert});
-        const auto draw = [&, view](const RenderTarget& target) {
-            renderDirect(task.loader, target, plane.gpu, view, brdf,
-                         BumpSurface{.map = &map, .shadow = BumpShadow::Ellipse});
-        };
-        builder.panel(fmt::format("azimuth {}°", 45 * k), plane, draw, {}, truth);
+        const Light lamp = lampFromDeg(45 * k, 20);
+        wall.panel(builder, fmt::format("azimuth {}°", 45 * k), lamp, BumpShadow::Ellipse, wall.truth(lamp));
     }
     Exhibit e;
     e.section = kSection;
     e.title = "A light going round the horizon";
     e.caption = "Frames of one turn, ellipses with a soft edge: shadows fall away from the light on every side.";
-    e.scene = fmt::format("Square seen from above, albedo {}; {}.", kAlbedo, source.words);
-    e.commands = bumpCommands(source);
+    e.scene = fmt::format("Square seen from above, albedo {}; {}.", kAlbedo, wall.source.words);
+    e.commands = bumpCommands(wall.source);
     builder.finish(e, 1);
     return e;
 }
