@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <glm/glm.hpp>
+#include <optional>
 #include <vector>
 
 #include "core/math.hpp"
@@ -31,12 +32,20 @@ struct Camera {
     glm::dmat4 projection(double aspect) const;
 };
 
+/// What a point light gives into directions at angle θ from its axis: saturate((cosθ − cos outer) / (cos inner −
+/// cos outer))² of its intensity, as in glTF's KHR_lights_punctual.
+struct SpotCone {
+    glm::dvec3 axis{0, 0, -1};             ///< unit, where it shines
+    double inner = 0, outer = 0.78539816;  ///< half angles [rad], 0 ≤ inner < outer ≤ π/2
+};
+
 /// Directional: `position` is the unit direction towards the light, radiance of a point = f · cosα · color.
 /// Point: `position` in world units, irradiance color · cosα / distance².
 struct Light {
     bool directional = true;
     glm::dvec3 position{0, 0, 1};
-    Rgb color{1};  ///< directional: irradiance on a facing surface [W/m²]; point: intensity [W/sr]
+    Rgb color{1};                    ///< directional: irradiance on a facing surface [W/m²]; point: intensity [W/sr]
+    std::optional<SpotCone> cone{};  ///< of a point light: a spot
 };
 
 }  // namespace nacre

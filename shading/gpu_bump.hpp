@@ -4,12 +4,10 @@
 #include <optional>
 
 #include "bump/bump_asset.hpp"
+#include "core/scene_description.hpp"
 #include "shading/program.hpp"
 
 namespace nacre {
-
-/// How the relief shadows itself. Soft: edges one pixel wide. All fade to the mean of what they stand for from afar.
-enum class BumpShadow { None, HardEllipse, Ellipse, HardHorizon, Horizon };
 
 class GpuBump;
 
