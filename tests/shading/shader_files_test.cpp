@@ -184,6 +184,8 @@ std::vector<ProgramCase> programs() {
     out.push_back({"fullscreen.vert.glsl", "relief_light.frag.glsl", reliefChoices()});
     out.push_back({"lit.vert.glsl", "lit_environment.frag.glsl", combined({both.back()}, bumpChoices())});
     out.push_back({"lit.vert.glsl", "environment.frag.glsl", combined({surroundings.back()}, bumpChoices())});
+    for (const ShaderDefines& way : {ShaderDefines{}, ShaderDefines{{"NACRE_VOLUME_MARCH", "1"}}})
+        out.push_back({"volume.vert.glsl", "volume.frag.glsl", combined({brdfs.front()}, {way})});
     return out;
 }
 
