@@ -1,4 +1,5 @@
 // Lit surface, addressed per pixel: hands normal, tangent and uv on.
+#include "nacre/bind/model.glsl"
 #include "nacre/bind/view.glsl"
 
 layout(location = 0) in vec3 position;
@@ -12,9 +13,9 @@ out vec4 v_tangent;
 out vec2 v_uv;
 
 void main() {
-    v_position = position;
-    v_normal = normal;
-    v_tangent = tangent;
+    v_position = nacre_mesh_position(position);
+    v_normal = nacre_mesh_normal(normal);
+    v_tangent = nacre_mesh_tangent(tangent, v_normal);
     v_uv = uv;
-    gl_Position = nacre_world_to_clip * vec4(position, 1.0);
+    gl_Position = nacre_world_to_clip * vec4(v_position, 1.0);
 }

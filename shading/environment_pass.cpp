@@ -97,20 +97,20 @@ void renderLit(ProgramLoader& loader, const RenderTarget& target, const GpuMesh&
     bindBump(program, relief, kReliefUnit);
     setView(program, view.camera, target);
     setLights(program, view);
-    drawMesh(program, target, mesh);
+    drawMesh(program, target, mesh, view.toWorld);
 }
 
 }  // namespace
 
 void renderEnvironment(ProgramLoader& loader, const RenderTarget& target, const GpuMesh& mesh, const Camera& camera,
-                       const EnvironmentSurface& surface, const BumpSurface& relief) {
+                       const EnvironmentSurface& surface, const BumpSurface& relief, const glm::dmat4& toWorld) {
     check(surface);
     const Program& program =
         loader.load("lit.vert.glsl", "environment.frag.glsl", joined(definesOf(surface), bumpDefines(relief)));
     bindSurface(program, surface);
     bindBump(program, relief, kReliefUnit);
     setView(program, camera, target);
-    drawMesh(program, target, mesh);
+    drawMesh(program, target, mesh, toWorld);
 }
 
 void renderFactored(ProgramLoader& loader, const RenderTarget& target, const GpuMesh& mesh, const LitView& view,

@@ -37,9 +37,10 @@ struct EnvironmentSurface {
 /// \throws std::invalid_argument when maps have different layouts, an lod isn't finite or ior ≤ 0; nacre::Error from
 ///         the shaders
 /// With a relief its normals take the surface's place, and the share of the sky that ellipses know scales the diffuse
-/// light; mirrored and refracted directions see no relief.
+/// light; mirrored and refracted directions see no relief. toWorld places the mesh, as LitView's does.
 void renderEnvironment(ProgramLoader& loader, const RenderTarget& target, const GpuMesh& mesh, const Camera& camera,
-                       const EnvironmentSurface& surface, const BumpSurface& relief = {});
+                       const EnvironmentSurface& surface, const BumpSurface& relief = {},
+                       const glm::dmat4& toWorld = glm::dmat4(1));
 
 /// The same plus lamps by a BRDF, in one shader: sum over lights of f cosα E, plus the surrounding, plus view.ambient.
 /// The BRDF's textures are bound from unit 0, the surrounding's and the relief's after them.

@@ -48,7 +48,7 @@ void renderRelief(ProgramLoader& loader, const RenderTarget& target, const GpuMe
     bindBump(program, relief, kMaxFactoredTextures);
     setView(program, view.camera, target);
     setLights(program, view);
-    drawMesh(program, target, mesh);
+    drawMesh(program, target, mesh, view.toWorld);
 }
 
 }  // namespace
@@ -71,7 +71,7 @@ void renderFactored(ProgramLoader& loader, const RenderTarget& target, const Gpu
     setView(program, view.camera, target);
     setLights(program, view);
     if (matrices) setMatrices(program, view);
-    drawMesh(program, target, mesh);
+    drawMesh(program, target, mesh, view.toWorld);
 }
 
 void renderDirect(ProgramLoader& loader, const RenderTarget& target, const GpuMesh& mesh, const LitView& view,
@@ -83,7 +83,7 @@ void renderDirect(ProgramLoader& loader, const RenderTarget& target, const GpuMe
     brdf.bind(program);
     setView(program, view.camera, target);
     setLights(program, view);
-    drawMesh(program, target, mesh);
+    drawMesh(program, target, mesh, view.toWorld);
 }
 
 void renderFactored(ProgramLoader& loader, const RenderTarget& target, const GpuMesh& mesh, const LitView& view,

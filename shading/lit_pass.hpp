@@ -29,6 +29,7 @@ struct LitView {
     Camera camera;
     std::vector<Light> lights;  ///< colors >= 0 or any sign; nothing is clamped
     Rgb ambient{0};             ///< radiance added to every point of the surface
+    glm::dmat4 toWorld{1};      ///< places the mesh: drawn as nacre::transformed(mesh, toWorld), mirrored ones too
 };
 
 /// Draws into `target` with depth test and depth write on, face culling and blending off, and leaves these so, with the

@@ -63,15 +63,33 @@ void setLights(const Program& program, const LitView& view) {
     program.set("nacre_ambient", glm::vec3(view.ambient));
 }
 
-void drawMesh(const Program& program, const RenderTarget& target, const GpuMesh& mesh) {
+static bool mirrors(const glm::dmat4& toWorld) { return glm::determinant(glm::dmat3(toWorld)) < 0; }
+
+void setModel(const Program& program, const glm::dmat4& toWorld) {
+    const glm::dmat3 m(toWorld);
+    for (int i = 0; i < 4; ++i) require(isFinite(Vec3(toWorld[i])), "drawing a mesh: its matrix must be finite");
+    // Cofactors: the inverse transpose times the determinant, and defined for matrices that flatten.
+    glm::dmat3 normals(glm::cross(m[1], m[2]), glm::cross(m[2], m[0]), glm::cross(m[0], m[1]));
+    double largest = 0;
+    for (int i = 0; i < 3; ++i) largest = std::max(largest, maxComponent(glm::abs(normals[i])));
+    if (largest > 0) normals /= mirrors(toWorld) ? -largest : largest;
+    program.set("nacre_mesh_to_world", glm::mat4(toWorld));
+    program.set("nacre_mesh_normal_to_world", glm::mat3(normals));
+    program.set("nacre_mesh_handedness", mirrors(toWorld) ? -1.0f : 1.0f);
+}
+
+void drawMesh(const Program& program, const RenderTarget& target, const GpuMesh& mesh, const glm::dmat4& toWorld) {
+    setModel(program, toWorld);
     target.bind();
     glEnable(GL_DEPTH_TEST);
     glDepthFunc(GL_LESS);
     glDepthMask(GL_TRUE);
     glDisable(GL_CULL_FACE);
     glDisable(GL_BLEND);
+    glFrontFace(mirrors(toWorld) ? GL_CW : GL_CCW);
     program.use();
     mesh.draw();
+    glFrontFace(GL_CCW);
     checkGl("drawing a mesh");
 }
 

@@ -19,7 +19,12 @@ ShaderDefines joined(ShaderDefines first, const ShaderDefines& second);
 void setView(const Program& program, const Camera& camera, const RenderTarget& target);
 void setLights(const Program& program, const LitView& view);
 
-/// Binds the target and draws with depth test and depth write on, face culling and blending off; leaves these so.
-void drawMesh(const Program& program, const RenderTarget& target, const GpuMesh& mesh);
+/// Uniforms of nacre/bind/model.glsl. Leaves `program` in use. \throws std::invalid_argument unless toWorld is finite
+void setModel(const Program& program, const glm::dmat4& toWorld);
+
+/// Binds the target and draws with depth test and depth write on, face culling and blending off; leaves these so. Front
+/// faces are those seen from outside, mirrored or not; afterwards counter-clockwise ones again.
+void drawMesh(const Program& program, const RenderTarget& target, const GpuMesh& mesh,
+              const glm::dmat4& toWorld = glm::dmat4(1));
 
 }  // namespace nacre

@@ -10,6 +10,7 @@
 #include "gpu_evaluate.hpp"
 #include "shading/environment_pass.hpp"
 #include "shading/lit_pass.hpp"
+#include "shading/pass_state.hpp"
 #include "shading/primitives.hpp"
 #include "shading/shading_frame.hpp"
 
@@ -74,7 +75,7 @@ public:
         bindBump(program, surface, 0);
         program.set("nacre_world_to_clip", glm::mat4(facing().projection(1) * facing().view()));
         program.set("nacre_eye", glm::vec4(glm::vec3(light), 0));
-        program.use();
+        setModel(program, glm::dmat4(1));
         GpuMesh(makeQuad()).draw();
         return target.read(4);
     }
