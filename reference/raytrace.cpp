@@ -81,8 +81,9 @@ private:
             const Vec3 offset = light.directional ? light.position : light.position - s.position;
             const double distance = glm::length(offset);
             const Vec3 wi = toLocal(s, offset / distance);
-            if (!(wi.z > 0) || (options_.shadows && occluded(s, light, offset))) continue;
-            sum += brdf_(wi, wo) * light.color * (wi.z / (light.directional ? 1 : distance * distance));
+            const double falloff = lightFalloff(light, s.position);
+            if (!(wi.z > 0) || !(falloff > 0) || (options_.shadows && occluded(s, light, offset))) continue;
+            sum += brdf_(wi, wo) * light.color * (wi.z * falloff);
         }
         return sum;
     }
@@ -117,6 +118,7 @@ RaytracedPicture raytrace(const Mesh& mesh, const Camera& camera, const std::vec
                           const BrdfFunction& brdf, const RaytraceOptions& options) {
     require(options.width >= 1 && options.height >= 1 && options.supersample >= 1, "raytrace: a size is below 1");
     checkMesh(mesh);
+    for (const Light& light : lights) checkCone(light);
     const Renderer renderer(mesh, camera, lights, brdf, options);
     RaytracedPicture out{Image(options.width, options.height, 3), Image(options.width, options.height, 1)};
     parallelFor(static_cast<std::size_t>(options.height), options.threads, [&](std::size_t y) {

@@ -161,7 +161,10 @@ std::vector<ProgramCase> programs() {
     const std::vector<ShaderDefines> brdfs = choicesFor("nacre/bind/brdf.glsl");
     out.push_back({"lit.vert.glsl", "lit.frag.glsl", brdfs});
     out.push_back({"lit.vert.glsl", "lit.frag.glsl", choicesFor("nacre/bind/lamps.glsl")});
-    out.push_back({"lit_vertex.vert.glsl", "lit_vertex.frag.glsl", {brdfs.front(), brdfs.back()}});
+    ShaderDefines spots = brdfs.front();
+    spots.emplace_back("NACRE_LIGHT_CONES", "1");
+    out.push_back({"lit.vert.glsl", "lit.frag.glsl", {spots}});
+    out.push_back({"lit_vertex.vert.glsl", "lit_vertex.frag.glsl", {spots, brdfs.front(), brdfs.back()}});
     std::vector<ShaderDefines> matrix;
     for (ShaderDefines defines : factoredChoices())
         if (defines[0].second == "NACRE_FORM_COSINE" || defines[0].second == "NACRE_FORM_TANGENT") {
