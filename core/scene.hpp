@@ -48,4 +48,14 @@ struct Light {
     std::optional<SpotCone> cone{};  ///< of a point light: a spot
 };
 
+/// \throws std::invalid_argument when a directional light has a cone, its axis isn't unit length or its angles aren't
+///         as said
+void checkCone(const Light& light);
+
+/// Share of a spot's intensity, as SpotCone says. \param toLight  unit, from the lit point to the light
+double coneShare(const SpotCone& cone, const glm::dvec3& toLight);
+
+/// What `color` is multiplied by for the irradiance on a facing surface at `point`: 1, or the cone's share / distance².
+double lightFalloff(const Light& light, const glm::dvec3& point);
+
 }  // namespace nacre

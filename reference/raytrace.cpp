@@ -6,6 +6,7 @@
 
 #include "core/error.hpp"
 #include "core/parallel.hpp"
+#include "reference/camera_rays.hpp"
 #include "reference/embree_scene.hpp"
 
 namespace nacre {
@@ -46,30 +47,6 @@ Vec3 toLocal(const Surface& s, const Vec3& v) {
     return {glm::dot(s.tangent, v), glm::dot(s.bitangent, v), glm::dot(s.normal, v)};
 }
 
-/// The camera as rays: o + t·d, where t is the depth along the viewing axis.
-struct RayCamera {
-    glm::dmat4 toWorld;
-    Vec2 halfExtent;  ///< perspective: at depth 1; orthographic: at any depth
-    const Camera& camera;
-
-    RayCamera(const Camera& c, double aspect) : toWorld(glm::inverse(c.view())), camera(c) {
-        const double y = c.orthographic ? c.height / 2 : std::tan(c.fovY / 2);
-        halfExtent = {y * aspect, y};
-    }
-    Ray at(const Vec2& ndc) const {
-        const Vec3 plane(ndc * halfExtent, camera.orthographic ? 0 : -1);
-        const Vec3 o = camera.orthographic ? plane : Vec3(0), d = camera.orthographic ? Vec3(0, 0, -1) : plane;
-        return {Vec3(toWorld * Vec4(o, 1)), Vec3(toWorld * Vec4(d, 0)), camera.near, camera.far};
-    }
-};
-
-/// Ray k of pixel (x, y).
-Ray sampleRay(const RayCamera& rays, const RaytraceOptions& options, int x, int y, int k) {
-    const int n = options.supersample;
-    const Vec2 centre(x + (k % n + 0.5) / n, y + (k / n + 0.5) / n);
-    return rays.at({2 * centre.x / options.width - 1, 1 - 2 * centre.y / options.height});
-}
-
 class Renderer {
 public:
     Renderer(const Mesh& mesh, const Camera& camera, const std::vector<Light>& lights, const BrdfFunction& brdf,
@@ -79,14 +56,14 @@ public:
           brdf_(brdf),
           options_(options),
           scene_(mesh),
-          rays_(camera, static_cast<double>(options.width) / options.height) {}
+          rays_(camera, options.width, options.height, options.supersample) {}
 
     void pixel(int x, int y, RaytracedPicture& out) const {
         const int n = options_.supersample;
         Rgb sum(0);
         int hits = 0;
         for (int i = 0; i < n * n; ++i) {
-            const Ray ray = sampleRay(rays_, options_, x, y, i);
+            const Ray ray = rays_.at(x, y, i);
             const RayHit hit = scene_.firstHit(ray);
             hits += hit.found;
             sum += hit.found ? radiance(surfaceAt(mesh_, hit), -glm::normalize(ray.direction)) : options_.background;
@@ -104,8 +81,9 @@ private:
             const Vec3 offset = light.directional ? light.position : light.position - s.position;
             const double distance = glm::length(offset);
             const Vec3 wi = toLocal(s, offset / distance);
-            if (!(wi.z > 0) || (options_.shadows && occluded(s, light, offset))) continue;
-            sum += brdf_(wi, wo) * light.color * (wi.z / (light.directional ? 1 : distance * distance));
+            const double falloff = lightFalloff(light, s.position);
+            if (!(wi.z > 0) || !(falloff > 0) || (options_.shadows && occluded(s, light, offset))) continue;
+            sum += brdf_(wi, wo) * light.color * (wi.z * falloff);
         }
         return sum;
     }
@@ -121,7 +99,7 @@ private:
     const BrdfFunction& brdf_;
     const RaytraceOptions& options_;
     EmbreeScene scene_;
-    RayCamera rays_;
+    CameraRays rays_;
 };
 
 void checkMesh(const Mesh& mesh) {
@@ -140,6 +118,7 @@ RaytracedPicture raytrace(const Mesh& mesh, const Camera& camera, const std::vec
                           const BrdfFunction& brdf, const RaytraceOptions& options) {
     require(options.width >= 1 && options.height >= 1 && options.supersample >= 1, "raytrace: a size is below 1");
     checkMesh(mesh);
+    for (const Light& light : lights) checkCone(light);
     const Renderer renderer(mesh, camera, lights, brdf, options);
     RaytracedPicture out{Image(options.width, options.height, 3), Image(options.width, options.height, 1)};
     parallelFor(static_cast<std::size_t>(options.height), options.threads, [&](std::size_t y) {
@@ -152,8 +131,8 @@ TracedSurface traceSurface(const Mesh& mesh, const Camera& camera, const Raytrac
     require(options.width >= 1 && options.height >= 1 && options.supersample >= 1, "traceSurface: a size is below 1");
     checkMesh(mesh);
     const EmbreeScene scene(mesh);
-    const RayCamera rays(camera, static_cast<double>(options.width) / options.height);
-    const int samples = options.supersample * options.supersample;
+    const CameraRays rays(camera, options.width, options.height, options.supersample);
+    const int samples = rays.samples();
     TracedSurface out{options.width, options.height, options.supersample, {}, {}};
     out.points.resize(static_cast<std::size_t>(options.width) * options.height * samples, SurfacePoint{});
     out.directions.resize(out.points.size());
@@ -161,7 +140,7 @@ TracedSurface traceSurface(const Mesh& mesh, const Camera& camera, const Raytrac
         std::size_t at = y * options.width * samples;
         for (int x = 0; x < options.width; ++x)
             for (int k = 0; k < samples; ++k, ++at) {
-                const Ray ray = sampleRay(rays, options, x, static_cast<int>(y), k);
+                const Ray ray = rays.at(x, static_cast<int>(y), k);
                 out.directions[at] = glm::normalize(ray.direction);
                 const RayHit hit = scene.firstHit(ray);
                 if (!hit.found) continue;

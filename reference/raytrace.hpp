@@ -43,7 +43,7 @@ struct RaytracedPicture {
 /// A light contributes nothing when wi.z ≤ 0, and the point none when wo.z ≤ 0. wo points to the eye; with an
 /// orthographic camera it is the same everywhere. Rays pass where OpenGL has its pixel centres (Camera::projection).
 /// \throws std::invalid_argument: sizes < 1, attribute arrays of other lengths than positions, indices out of range,
-///         non-finite positions
+///         non-finite positions, a light's cone that isn't as SpotCone says
 RaytracedPicture raytrace(const Mesh& mesh, const Camera& camera, const std::vector<Light>& lights,
                           const BrdfFunction& brdf, const RaytraceOptions& options = {});
 

@@ -20,9 +20,9 @@ void main() {
     for (int i = 0; i < 4; ++i) {
         vec4 light = nacre_light_position[i];
         v_light[i] = vec4(0.0);
+        vec3 to_light = nacre_direction_to(light, world);
         if (i < NACRE_LIGHT_COUNT)
-            v_light[i] = vec4(nacre_to_local(frame, nacre_direction_to(light, world)),
-                              nacre_light_falloff(light, world));
+            v_light[i] = vec4(nacre_to_local(frame, to_light), nacre_light_share(i, to_light, world));
     }
     gl_Position = nacre_world_to_clip * vec4(world, 1.0);
 }

@@ -35,7 +35,8 @@ struct LitView {
 /// Draws into `target` with depth test and depth write on, face culling and blending off, and leaves these so, with the
 /// program in use and the BRDF's textures bound from unit 0. Doesn't clear. Back faces are black (plus ambient).
 /// \throws std::invalid_argument with more lights than the addressing takes, a directional light that is not unit
-///         length, or TextureMatrix with another form, light or camera than it can do; nacre::Error from the shaders
+///         length, a spot's cone that isn't as SpotCone says, or TextureMatrix with another form, light or camera than
+///         it can do; nacre::Error from the shaders
 void renderFactored(ProgramLoader& loader, const RenderTarget& target, const GpuMesh& mesh, const LitView& view,
                     const GpuFactoredBrdf& brdf, Addressing addressing = Addressing::PerPixel);
 

@@ -3,6 +3,7 @@
 #include <epoxy/gl.h>
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 
 #include "core/error.hpp"
@@ -15,13 +16,17 @@ Vec3 orthographicDirection(const Camera& camera) { return glm::normalize(camera.
 void checkLights(std::span<const Light> lights, int most) {
     const auto count = static_cast<int>(lights.size());
     require(count <= most, fmt::format("lit pass: at most {} lights, found {}", most, count));
-    for (const Light& light : lights)
+    for (const Light& light : lights) {
         require(!light.directional || std::abs(glm::length(light.position) - 1) < 1e-6,
                 "lit pass: the direction to a directional light must have unit length");
+        checkCone(light);
+    }
 }
 
 ShaderDefines withLights(ShaderDefines defines, std::span<const Light> lights) {
     defines.emplace_back("NACRE_LIGHTS", std::to_string(lights.size()));
+    const auto isSpot = [](const Light& light) { return light.cone.has_value(); };
+    if (std::any_of(lights.begin(), lights.end(), isSpot)) defines.emplace_back("NACRE_LIGHT_CONES", "1");
     return defines;
 }
 
@@ -37,16 +42,24 @@ void setView(const Program& program, const Camera& camera, const RenderTarget& t
     program.set("nacre_eye", glm::vec4(eye));
 }
 
+static glm::vec4 coneUniform(const std::optional<SpotCone>& cone) {
+    if (!cone) return {0, 0, 0, 1};
+    const double edge = std::cos(cone->inner) - std::cos(cone->outer);
+    return glm::vec4(Vec4(cone->axis, -std::cos(cone->outer)) / edge);
+}
+
 void setLights(const Program& program, const LitView& view) {
-    std::array<glm::vec4, kMaxLights> positions{};
+    std::array<glm::vec4, kMaxLights> positions{}, cones{};
     std::array<glm::vec3, kMaxLights> colors{};
     for (std::size_t i = 0; i < view.lights.size(); ++i) {
         positions[i] = glm::vec4(glm::vec3(view.lights[i].position), view.lights[i].directional ? 0.0f : 1.0f);
         colors[i] = glm::vec3(view.lights[i].color);
+        cones[i] = coneUniform(view.lights[i].cone);
     }
     program.set("nacre_light_count", static_cast<int>(view.lights.size()));
     program.set("nacre_light_position", positions);
     program.set("nacre_light_color", colors);
+    program.set("nacre_light_cone", cones);
     program.set("nacre_ambient", glm::vec3(view.ambient));
 }
 

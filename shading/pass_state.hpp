@@ -7,9 +7,10 @@ namespace nacre {
 
 Vec3 orthographicDirection(const Camera& camera);  ///< towards the viewer, unit
 
-/// \throws std::invalid_argument with more than `most` lights, or a directional one that is not unit length
+/// \throws std::invalid_argument with more than `most` lights, a directional one that is not unit length, or what
+///         checkCone says
 void checkLights(std::span<const Light> lights, int most);
-/// Adds NACRE_LIGHTS: one program for each number of lights, see bind/lights.glsl.
+/// Adds NACRE_LIGHTS: one program for each number of lights, see bind/lights.glsl; and NACRE_LIGHT_CONES with spots.
 ShaderDefines withLights(ShaderDefines defines, std::span<const Light> lights);
 /// One list after the other.
 ShaderDefines joined(ShaderDefines first, const ShaderDefines& second);

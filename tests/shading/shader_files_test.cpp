@@ -161,7 +161,10 @@ std::vector<ProgramCase> programs() {
     const std::vector<ShaderDefines> brdfs = choicesFor("nacre/bind/brdf.glsl");
     out.push_back({"lit.vert.glsl", "lit.frag.glsl", brdfs});
     out.push_back({"lit.vert.glsl", "lit.frag.glsl", choicesFor("nacre/bind/lamps.glsl")});
-    out.push_back({"lit_vertex.vert.glsl", "lit_vertex.frag.glsl", {brdfs.front(), brdfs.back()}});
+    ShaderDefines spots = brdfs.front();
+    spots.emplace_back("NACRE_LIGHT_CONES", "1");
+    out.push_back({"lit.vert.glsl", "lit.frag.glsl", {spots}});
+    out.push_back({"lit_vertex.vert.glsl", "lit_vertex.frag.glsl", {spots, brdfs.front(), brdfs.back()}});
     std::vector<ShaderDefines> matrix;
     for (ShaderDefines defines : factoredChoices())
         if (defines[0].second == "NACRE_FORM_COSINE" || defines[0].second == "NACRE_FORM_TANGENT") {
@@ -184,6 +187,8 @@ std::vector<ProgramCase> programs() {
     out.push_back({"fullscreen.vert.glsl", "relief_light.frag.glsl", reliefChoices()});
     out.push_back({"lit.vert.glsl", "lit_environment.frag.glsl", combined({both.back()}, bumpChoices())});
     out.push_back({"lit.vert.glsl", "environment.frag.glsl", combined({surroundings.back()}, bumpChoices())});
+    for (const ShaderDefines& way : {ShaderDefines{}, ShaderDefines{{"NACRE_VOLUME_MARCH", "1"}}})
+        out.push_back({"volume.vert.glsl", "volume.frag.glsl", combined({brdfs.front()}, {way})});
     return out;
 }
 

@@ -22,10 +22,10 @@ vec3 nacre_lamps(NacreBump point, vec3 to_eye, vec3 position) {
         vec3 wi = nacre_to_local(point.frame, to_light);
         float lit = nacre_bump_lit(point, to_light);
         if (wi.z > 0.0 && wo.z > 0.0 && lit > 0.0)
-            sum += nacre_brdf(wi, wo) * (lit * wi.z * nacre_light_falloff(light, position)) * nacre_light_color[i];
+            sum += nacre_brdf(wi, wo) * (lit * wi.z * nacre_light_share(i, to_light, position)) * nacre_light_color[i];
 #ifdef NACRE_BUMP_INDIRECT
         if (i == NACRE_BUMP_INDIRECT && wo.z > 0.0 && dot(point.mesh[2], to_light) > 0.0)
-            sum += point.indirect * nacre_light_color[i] * nacre_light_falloff(light, position);
+            sum += point.indirect * nacre_light_color[i] * nacre_light_share(i, to_light, position);
 #endif
     }
     return sum;
