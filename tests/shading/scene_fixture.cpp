@@ -6,8 +6,10 @@
 #include "envmaps/env_asset.hpp"
 #include "envmaps/fresnel_table.hpp"
 #include "envmaps/prefilter.hpp"
+#include "envmaps/source.hpp"
 #include "factorize/factorize.hpp"
 #include "factorize/models/models.hpp"
+#include "shading/image_output.hpp"
 #include "shading/primitives.hpp"
 #include "tests/bump/relief_fixtures.hpp"
 
@@ -31,16 +33,26 @@ void bake(const tests::Scratch& folder) {
     brdf.meta["source"] = glossy.source;
     writeAsset(brdf, folder / "glossy.exr");
 
+    writeExr(smallSky().image, folder / "sky_source.exr");
+    const auto describe = [&folder](Asset asset, const nlohmann::json& lobes) {
+        asset.meta["source"] = (folder / "sky_source.exr").string();
+        asset.meta["input"] = toJson(readEnvironment(folder / "sky_source.exr").report);
+        asset.meta["lobes"] = lobes;
+        return asset;
+    };
     const PrefilterLevel levels[] = {{{LobeKind::Mirror}, 32}, {{.kind = LobeKind::Phong, .exponent = 40}, 16}};
     EnvChain chain;
     chain.levels = prefilter(smallSky(), levels, {}).levels;
     chain.mapping = LevelMapping{"linear", "exponent", {1e4, 40}};
-    writeAsset(toAsset(chain), folder / "sky.exr");
+    writeAsset(describe(toAsset(chain), {{{"lobe", "mirror"}}, {{"lobe", "phong"}, {"exponent", 40}}}), folder / "sky.exr");
     const PrefilterLevel diffuse[] = {{{LobeKind::Diffuse}, 8}};
-    writeAsset(toAsset(EnvChain(prefilter(smallSky(), diffuse, {}).levels.front())), folder / "diffuse.exr");
+    const EnvChain irradiance(prefilter(smallSky(), diffuse, {}).levels.front());
+    writeAsset(describe(toAsset(irradiance), {{{"lobe", "diffuse"}}}), folder / "diffuse.exr");
 
     Asset fresnel;
     fresnel.kind = "fresnel";
+    fresnel.meta["eta"] = {1.5, 1.5, 1.5};
+    fresnel.meta["k"] = {0, 0, 0};
     fresnel.textures.push_back(bakeFresnelTable({Rgb(1.5), Rgb(0)}, 64));
     writeAsset(fresnel, folder / "fresnel.exr");
 
