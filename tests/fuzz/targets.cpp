@@ -24,6 +24,8 @@
 #include "factorize/measured/rgl.hpp"
 #include "factorize/measured/samples.hpp"
 #include "factorize/models/models.hpp"
+#include "shading/gltf_scene.hpp"
+#include "shading/scene_file.hpp"
 
 namespace nacre::tests {
 
@@ -83,6 +85,27 @@ static void readRadianceBytes(std::span<const std::uint8_t> bytes) { readAsMap(p
 
 static void readTiffBytes(std::span<const std::uint8_t> bytes) { scanTiff(bytes, "input"); }
 
+/// Scene files whose meshes are made by formula: the files that they name are not there.
+static void readSceneText(std::span<const std::uint8_t> bytes) {
+    SceneOptions options;
+    options.needAssets = false;
+    const SceneDescription scene = parseScene({reinterpret_cast<const char*>(bytes.data()), bytes.size()},
+                                              "/nowhere/to/be/found/scene.json", options);
+    for (const double time : {0.0, 0.7})
+        for (const Light& light : lightsInWorld(scene, nodeTransforms(scene, time)))
+            if (std::isnan(light.position.x)) throw std::logic_error("a light nowhere");
+    if (!isFinite(scene.camera.eye) || !(scene.camera.far > scene.camera.near))
+        throw std::logic_error("a camera that sees nothing");
+}
+
+/// Our half of glTF: container, hierarchy, lights, cameras. Geometry is assimp's, and assimp is not tested here.
+static void readGltfBytes(std::span<const std::uint8_t> bytes) {
+    const GltfFile file = parseGltf(bytes, "input.glb");
+    const GltfScene scene = gltfScene(file, {});
+    nodeTransforms(scene.scene, 0);
+    if (geometryOf(file).empty()) throw std::logic_error("no container");
+}
+
 /// Feeds a reader of lines.
 template <typename Reader, typename Item>
 static void readLines(std::span<const std::uint8_t> bytes) {
@@ -106,6 +129,8 @@ const std::vector<FuzzTarget>& fuzzTargets() {
                                                     {"exr", readExrBytes},
                                                     {"radiance", readRadianceBytes},
                                                     {"tiff", readTiffBytes},
+                                                    {"scene", readSceneText},
+                                                    {"gltf", readGltfBytes},
                                                     {"env_queries", readLines<cli::EnvQueryReader, cli::EnvQuery>},
                                                     {"bump_queries", readLines<cli::BumpQueryReader, cli::BumpQuery>}};
     return targets;
