@@ -29,9 +29,10 @@ RadianceByDirection lookup(Radiance map, const Rgb& color) {
 
 struct OpenEnvironment {
     Radiance source, blocked;
+    std::shared_ptr<const BrightTexels> bright;
     std::vector<Lobe> lobes;  ///< one a level
     std::optional<LevelMapping> mapping;
-    std::map<double, Radiance> tables;  ///< by lod
+    std::map<double, Radiance> tables;        ///< by lod
     std::shared_ptr<const EnvChain> standIn;  ///< the baked one, without a source
 };
 
@@ -96,7 +97,8 @@ private:
         try {
             options = heightOptionsFrom(asset(index).meta.at("input"), maps.wrap);
         } catch (const json::exception& error) {
-            throw Error(fmt::format("{}: expected 'input' to say how {} is read, found {}", file, source, error.what()));
+            throw Error(
+                fmt::format("{}: expected 'input' to say how {} is read, found {}", file, source, error.what()));
         }
         return kept = std::make_shared<const ReliefTruth>(readHeight(source, options).map);
     }
@@ -150,6 +152,7 @@ private:
             if (out.lobes.empty()) out.lobes.assign(chain.levels.size(), Lobe{});
         }
         out.blocked = std::make_shared<const EnvMap>(areaAveraged(*out.source, kBlockedSize, threads_));
+        out.bright = std::make_shared<const BrightTexels>(*out.blocked);
         return environments_.emplace(index, std::move(out)).first->second;
     }
 
@@ -226,7 +229,8 @@ private:
         if (s.transmission.asset >= 0) out.transmission = radianceOf(s.transmission);
         if (s.diffuse.asset >= 0) {
             out.diffuse = radianceOf(s.diffuse);
-            truth.diffuseSource = lookup(environment(s.diffuse.asset).blocked, s.diffuse.color);
+            truth.diffuseSource = environment(s.diffuse.asset).bright;
+            truth.diffuseColor = s.diffuse.color;
         }
     }
 
