@@ -90,7 +90,7 @@ void renderLit(ProgramLoader& loader, const RenderTarget& target, const GpuMesh&
     check(surface);
     checkLights(view.lights, kMaxLights);
     const ShaderDefines defines =
-        joined(joined(withLights(brdf.defines(), view.lights), definesOf(surface)), bumpDefines(relief));
+        joined(joined(withLights(brdf.defines(), view), definesOf(surface)), bumpDefines(relief));
     const Program& program = loader.load("lit.vert.glsl", "lit_environment.frag.glsl", defines);
     brdf.bind(program);
     bindSurface(program, surface);
