@@ -94,12 +94,15 @@ static void requireKnownVerb(const std::vector<Verb>& verbs, int argc, const cha
         fmt::format("expected a verb, one of {}, found {}", known, argc > 1 ? fmt::format("'{}'", argv[1]) : "none"));
 }
 
+static std::vector<Verb> makeVerbs(Context& context) {
+    return {factorizeVerb(context), envmapVerb(context), bumpVerb(context),   fresnelVerb(context), shVerb(context),
+            infoVerb(context),      evalVerb(context),   modelsVerb(context), methodsVerb(context)};
+}
+
 static int parseAndRun(int argc, const char* const* argv) {
     Context context;
     for (int i = 0; i < argc; ++i) context.commandLine += (i ? " " : "") + quoted(i ? argv[i] : "nacre");
-    const std::vector<Verb> verbs = {factorizeVerb(context), envmapVerb(context), bumpVerb(context),
-                                     fresnelVerb(context),   shVerb(context),     infoVerb(context),
-                                     evalVerb(context),      modelsVerb(context), methodsVerb(context)};
+    const std::vector<Verb> verbs = makeVerbs(context);
     requireKnownVerb(verbs, argc, argv);
     CLI::App app("Bakes reflectance and light into small textures, each with its measured error written inside.",
                  "nacre");
@@ -128,13 +131,21 @@ static std::string oneLine(std::string text) {
     return text;
 }
 
+/// "VERB " when the line names one: whose help tells more.
+static std::string knownVerb(int argc, const char* const* argv) {
+    Context context;
+    for (const Verb& verb : makeVerbs(context))
+        if (argc > 1 && verb.name == argv[1]) return verb.name + " ";
+    return "";
+}
+
 int runCommand(int argc, const char* const* argv) {
     std::signal(SIGXFSZ, SIG_IGN);  // a file size limit then is a failed write like a full disk
     removeTemporaryFilesOnSignals();
     try {
         return parseAndRun(argc, argv);
     } catch (const UsageError& error) {
-        tell(oneLine(error.what()) + " (see nacre --help)");
+        tell(fmt::format("{} (see nacre {}--help)", oneLine(error.what()), knownVerb(argc, argv)));
         return 2;
     } catch (const StorageError& error) {
         tell(oneLine(error.what()));

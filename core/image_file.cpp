@@ -12,6 +12,7 @@
 #include "core/error.hpp"
 #include "core/file.hpp"
 #include "core/oiio_reader.h"
+#include "core/png_scan.hpp"
 #include "core/tiff_scan.hpp"
 
 namespace nacre {
@@ -114,6 +115,7 @@ ImageFile readImageFile(const fs::path& path, Samples samples) {
         return parseExrImage(bytes, path.string(), samples);
     if (startsWith("#?")) return parseRadianceImage(bytes, path.string());
     if (bytes.empty()) throw Error(fmt::format("{}: expected a picture, found an empty file", path.string()));
+    scanPng(bytes, path.string());
     const std::optional<double> nodata = scanTiff(bytes, path.string());
     ImageFile out = readByOiio(path, samples);
     out.nodata = nodata;

@@ -11,13 +11,13 @@
 namespace nacre {
 namespace {
 
-constexpr int kSupersample = 2;
 /// Share of pixels that may lie beyond the end of the difference's colour scale.
 constexpr double kBeyondScale = 0.001;
 
-RenderTargetOptions targetOptions(const Body& body) {
+RenderTargetOptions targetOptions(int width, int height) {
     RenderTargetOptions options;
-    options.width = options.height = kSupersample * body.size;
+    options.width = kSupersample * width;
+    options.height = kSupersample * height;
     return options;
 }
 
@@ -62,13 +62,23 @@ void ExhibitBuilder::panel(const std::string& label, const Body& body, const Env
 void ExhibitBuilder::panel(const std::string& label, const Body& body, std::function<void(const RenderTarget&)> draw,
                            const EnvironmentLookup& sky, const std::vector<Rgb>& truth) {
     report(options_.progress, id_ + ": " + label, 0);
-    const RenderTarget target(targetOptions(body));
+    const RenderTarget target(targetOptions(body.size, body.size));
     target.clear();
     draw(target);
     if (sky.map) renderSky(loader_, target, body.camera, sky);
     RaytracedPicture picture = assemblePicture(body.traced, truth);
     rows_.back().panels.push_back({label, halved(target.read()), std::move(picture.radiance),
                                    std::move(picture.coverage), &body, std::move(draw)});
+}
+
+void ExhibitBuilder::panel(const std::string& label, std::function<void(const RenderTarget&)> draw,
+                           const RaytracedPicture& truth) {
+    report(options_.progress, id_ + ": " + label, 0);
+    const RenderTarget target(targetOptions(truth.radiance.width(), truth.radiance.height()));
+    target.clear();
+    draw(target);
+    rows_.back().panels.push_back(
+        {label, halved(target.read()), truth.radiance, truth.coverage, nullptr, std::move(draw)});
 }
 
 void ExhibitBuilder::picture(const std::string& label, Image radiance) {
@@ -113,26 +123,28 @@ void ExhibitBuilder::time(Exhibit& exhibit) const {
     for (std::size_t r = 0; r < rows_.size(); ++r)
         for (std::size_t i = 0; i < rows_[r].panels.size(); ++i) {
             const Raw& raw = rows_[r].panels[i];
-            if (raw.body == nullptr) continue;
+            if (!raw.draw) continue;
             if (first == nullptr) first = raw.body;
-            targets.push_back(std::make_unique<RenderTarget>(targetOptions(*raw.body)));
+            targets.push_back(std::make_unique<RenderTarget>(targetOptions(raw.drawn.width(), raw.drawn.height())));
             frames.push_back([&raw, target = targets.back().get()] {
                 target->clear();
                 raw.draw(*target);
             });
             panels.push_back(&exhibit.rows[r].panels[i]);
         }
-    if (first == nullptr) return;
-    targets.push_back(std::make_unique<RenderTarget>(targetOptions(*first)));
-    frames.push_back([this, first, target = targets.back().get()] {
-        target->clear();
-        renderEnvironment(loader_, *target, first->gpu, first->camera, {});
-    });
+    if (frames.empty()) return;
+    if (first != nullptr) {
+        targets.push_back(std::make_unique<RenderTarget>(targetOptions(first->size, first->size)));
+        frames.push_back([this, first, target = targets.back().get()] {
+            target->clear();
+            renderEnvironment(loader_, *target, first->gpu, first->camera, {});
+        });
+    }
     TimingOptions timing;
     timing.repeats = options_.timingRepeats;
     const std::vector<double> seconds = medianFrameSeconds(frames, timing);
     for (std::size_t i = 0; i < panels.size(); ++i) panels[i]->milliseconds = 1000 * seconds[i];
-    exhibit.geometryMilliseconds = 1000 * seconds.back();
+    if (first != nullptr) exhibit.geometryMilliseconds = 1000 * seconds.back();
 }
 
 void ExhibitBuilder::finish(Exhibit& exhibit, double white) {

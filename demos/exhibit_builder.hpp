@@ -26,6 +26,8 @@ Body sphereBody(int size);
 Body nearSphereBody(int size);
 Body torusBody(int size);
 
+inline constexpr int kSupersample = 2;  ///< n × n samples a pixel, of pictures and truths
+
 struct BuilderOptions {
     int timingRepeats = 5;
     Progress progress{};
@@ -43,6 +45,9 @@ public:
     /// Any other way of drawing the body; before black without a sky.
     void panel(const std::string& label, const Body& body, std::function<void(const RenderTarget&)> draw,
                const EnvironmentLookup& sky, const std::vector<Rgb>& truth);
+    /// Whatever draws, and the truth's picture of the same points (RaytraceOptions::supersample = kSupersample). Timed
+    /// with the others.
+    void panel(const std::string& label, std::function<void(const RenderTarget&)> draw, const RaytracedPicture& truth);
     /// A picture as it is.
     void picture(const std::string& label, Image radiance);
     /// Compares inside the outline, encodes, times. \param white  radiance shown as white; 0 = the largest pictureWhite
@@ -52,9 +57,9 @@ public:
 private:
     struct Raw {
         std::string label;
-        Image drawn, truth, mask;  ///< truth empty: a picture as it is
-        const Body* body = nullptr;
-        std::function<void(const RenderTarget&)> draw;
+        Image drawn, truth, mask;                         ///< truth empty: a picture as it is
+        const Body* body = nullptr;                       ///< none: another truth, or a picture as it is
+        std::function<void(const RenderTarget&)> draw{};  ///< empty: a picture as it is
     };
     struct RawRow {
         std::string title;

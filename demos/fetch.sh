@@ -1,5 +1,5 @@
 #!/bin/sh
-# Fetches the gallery's meshes, surroundings and height fields from Debian packages without installing them:
+# Fetches the gallery's meshes, surroundings, height fields and volumes from Debian packages without installing them:
 # demos/fetch.sh [DIR], default build/data. Keeps what is there; exit 1 with one line for each package that can't be had
 # (the gallery then uses its built-in meshes and a made-up sky).
 set -eu
@@ -32,20 +32,24 @@ complain() {
   failed=1
 }
 
-mkdir -p "$data/meshes" "$data/world" "$data/heights"
+mkdir -p "$data/meshes" "$data/world" "$data/heights" "$data/volumes"
 work=$(mktemp -d "$data/fetch.XXXXXX")
 trap 'rm -rf "$work"' EXIT
 chmod 755 "$work" # apt's own user writes here when root downloads
 
-wanted=$(missing meshes .off armadillo bunny00 ChineseDragon-10kv lion-head refined_elephant camel)
-if [ -n "$wanted" ] && download libcgal-demo '24 MB' meshes; then
+wanted="$(missing meshes .off armadillo bunny00 ChineseDragon-10kv lion-head refined_elephant camel)$(missing volumes .inr skull_2.9)"
+if [ -n "$wanted" ] && download libcgal-demo '24 MB' 'meshes and skull'; then
   archive=usr/share/doc/libcgal-dev/data.tar.gz
   if dpkg-deb --fsys-tarfile "$work"/libcgal-demo_*.deb | tar -x -C "$work" -f - "./$archive"; then
-    for mesh in $wanted; do
-      if tar -x -z -C "$work" -f "$work/$archive" "data/meshes/$mesh.off"; then
-        mv "$work/data/meshes/$mesh.off" "$data/meshes/$mesh.off"
+    for name in $wanted; do
+      case $name in
+      skull*) from=images/$name.inr to=volumes/$name.inr ;;
+      *) from=meshes/$name.off to=meshes/$name.off ;;
+      esac
+      if tar -x -z -C "$work" -f "$work/$archive" "data/$from"; then
+        mv "$work/data/$from" "$data/$to"
       else
-        complain "$archive holds no data/meshes/$mesh.off"
+        complain "$archive holds no data/$from"
       fi
     done
   else
@@ -75,5 +79,15 @@ if [ -n "$wanted" ] && download libirrlicht-doc '9 MB' 'height fields'; then
       complain "libirrlicht-doc holds no $folder/$height.bmp.gz"
     fi
   done
+fi
+
+wanted=$(missing volumes .den brainsmall)
+if [ -n "$wanted" ] && download libvolpack1-dev '0.7 MB' 'scan of a head'; then
+  file=usr/share/doc/libvolpack1-dev/examples/brainsmall.den
+  if dpkg-deb --fsys-tarfile "$work"/libvolpack1-dev_*.deb | tar -x -C "$work" -f - "./$file"; then
+    mv "$work/$file" "$data/volumes/brainsmall.den"
+  else
+    complain "libvolpack1-dev holds no $file"
+  fi
 fi
 exit $failed

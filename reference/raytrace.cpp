@@ -6,69 +6,12 @@
 
 #include "core/error.hpp"
 #include "core/parallel.hpp"
+#include "reference/camera_rays.hpp"
 #include "reference/embree_scene.hpp"
 
 namespace nacre {
 
 namespace {
-
-struct Surface {
-    Vec3 position, normal, tangent, bitangent;
-    Vec2 uv{0};
-};
-
-template <typename T>
-T interpolate(const std::vector<T>& values, const glm::uvec3& triangle, const Vec3& weight) {
-    return T(static_cast<float>(weight.x)) * values[triangle.x] + T(static_cast<float>(weight.y)) * values[triangle.y] +
-           T(static_cast<float>(weight.z)) * values[triangle.z];
-}
-
-Vec3 anyPerpendicular(const Vec3& n) {
-    return glm::normalize(glm::cross(n, std::abs(n.x) < 0.5 ? Vec3(1, 0, 0) : Vec3(0, 1, 0)));
-}
-
-Surface surfaceAt(const Mesh& mesh, const RayHit& hit) {
-    const glm::uvec3& triangle = mesh.triangles[hit.triangle];
-    const Vec3 weight(1 - hit.u - hit.v, hit.u, hit.v);
-    const glm::vec4 tangent = interpolate(mesh.tangents, triangle, weight);
-    Surface s;
-    s.position = Vec3(interpolate(mesh.positions, triangle, weight));
-    s.normal = glm::normalize(Vec3(interpolate(mesh.normals, triangle, weight)));
-    const Vec3 across = Vec3(tangent) - glm::dot(Vec3(tangent), s.normal) * s.normal;
-    // Interpolated tangents may cancel or meet the normal: any tangent then, as good as none.
-    s.tangent = glm::length(across) > 1e-9 ? glm::normalize(across) : anyPerpendicular(s.normal);
-    s.bitangent = (tangent.w < 0 ? -1.0 : 1.0) * glm::cross(s.normal, s.tangent);
-    if (mesh.uvs.size() == mesh.positions.size()) s.uv = Vec2(interpolate(mesh.uvs, triangle, weight));
-    return s;
-}
-
-Vec3 toLocal(const Surface& s, const Vec3& v) {
-    return {glm::dot(s.tangent, v), glm::dot(s.bitangent, v), glm::dot(s.normal, v)};
-}
-
-/// The camera as rays: o + t·d, where t is the depth along the viewing axis.
-struct RayCamera {
-    glm::dmat4 toWorld;
-    Vec2 halfExtent;  ///< perspective: at depth 1; orthographic: at any depth
-    const Camera& camera;
-
-    RayCamera(const Camera& c, double aspect) : toWorld(glm::inverse(c.view())), camera(c) {
-        const double y = c.orthographic ? c.height / 2 : std::tan(c.fovY / 2);
-        halfExtent = {y * aspect, y};
-    }
-    Ray at(const Vec2& ndc) const {
-        const Vec3 plane(ndc * halfExtent, camera.orthographic ? 0 : -1);
-        const Vec3 o = camera.orthographic ? plane : Vec3(0), d = camera.orthographic ? Vec3(0, 0, -1) : plane;
-        return {Vec3(toWorld * Vec4(o, 1)), Vec3(toWorld * Vec4(d, 0)), camera.near, camera.far};
-    }
-};
-
-/// Ray k of pixel (x, y).
-Ray sampleRay(const RayCamera& rays, const RaytraceOptions& options, int x, int y, int k) {
-    const int n = options.supersample;
-    const Vec2 centre(x + (k % n + 0.5) / n, y + (k / n + 0.5) / n);
-    return rays.at({2 * centre.x / options.width - 1, 1 - 2 * centre.y / options.height});
-}
 
 class Renderer {
 public:
@@ -79,25 +22,25 @@ public:
           brdf_(brdf),
           options_(options),
           scene_(mesh),
-          rays_(camera, static_cast<double>(options.width) / options.height) {}
+          rays_(camera, options.width, options.height, options.supersample) {}
 
     void pixel(int x, int y, RaytracedPicture& out) const {
         const int n = options_.supersample;
         Rgb sum(0);
         int hits = 0;
         for (int i = 0; i < n * n; ++i) {
-            const Ray ray = sampleRay(rays_, options_, x, y, i);
+            const Ray ray = rays_.at(x, y, i);
             const RayHit hit = scene_.firstHit(ray);
             hits += hit.found;
-            sum += hit.found ? radiance(surfaceAt(mesh_, hit), -glm::normalize(ray.direction)) : options_.background;
+            sum += hit.found ? radiance(surfaceAt(mesh_, hit, -glm::normalize(ray.direction))) : options_.background;
         }
         out.radiance.setRgb(x, y, sum / static_cast<double>(n * n));
         out.coverage.at(x, y, 0) = static_cast<float>(hits) / static_cast<float>(n * n);
     }
 
 private:
-    Rgb radiance(const Surface& s, const Vec3& toEye) const {
-        const Vec3 wo = toLocal(s, toEye);
+    Rgb radiance(const SurfacePoint& s) const {
+        const Vec3 wo = toLocal(s, s.toEye);
         Rgb sum(0);
         if (!(wo.z > 0)) return sum;
         for (const Light& light : lights_) {
@@ -110,7 +53,7 @@ private:
         }
         return sum;
     }
-    bool occluded(const Surface& s, const Light& light, const Vec3& offset) const {
+    bool occluded(const SurfacePoint& s, const Light& light, const Vec3& offset) const {
         const double skip = 1e-4 * scene_.size();  // past the triangle itself: positions are single precision
         const double length = glm::length(offset);
         const double end = light.directional ? std::numeric_limits<float>::max() : length - skip;
@@ -122,7 +65,7 @@ private:
     const BrdfFunction& brdf_;
     const RaytraceOptions& options_;
     EmbreeScene scene_;
-    RayCamera rays_;
+    CameraRays rays_;
 };
 
 void checkMesh(const Mesh& mesh) {
@@ -154,8 +97,8 @@ TracedSurface traceSurface(const Mesh& mesh, const Camera& camera, const Raytrac
     require(options.width >= 1 && options.height >= 1 && options.supersample >= 1, "traceSurface: a size is below 1");
     checkMesh(mesh);
     const EmbreeScene scene(mesh);
-    const RayCamera rays(camera, static_cast<double>(options.width) / options.height);
-    const int samples = options.supersample * options.supersample;
+    const CameraRays rays(camera, options.width, options.height, options.supersample);
+    const int samples = rays.samples();
     TracedSurface out{options.width, options.height, options.supersample, {}, {}};
     out.points.resize(static_cast<std::size_t>(options.width) * options.height * samples, SurfacePoint{});
     out.directions.resize(out.points.size());
@@ -163,12 +106,11 @@ TracedSurface traceSurface(const Mesh& mesh, const Camera& camera, const Raytrac
         std::size_t at = y * options.width * samples;
         for (int x = 0; x < options.width; ++x)
             for (int k = 0; k < samples; ++k, ++at) {
-                const Ray ray = sampleRay(rays, options, x, static_cast<int>(y), k);
+                const Ray ray = rays.at(x, static_cast<int>(y), k);
                 out.directions[at] = glm::normalize(ray.direction);
                 const RayHit hit = scene.firstHit(ray);
                 if (!hit.found) continue;
-                const Surface s = surfaceAt(mesh, hit);
-                out.points[at] = {s.position, s.normal, s.tangent, s.bitangent, -out.directions[at], s.uv};
+                out.points[at] = surfaceAt(mesh, hit, -out.directions[at]);
             }
     });
     return out;

@@ -13,23 +13,27 @@ namespace {
 
 /// Texture units after a factored BRDF's.
 constexpr int kFirstUnit = kMaxFactoredTextures;
-constexpr int kReliefUnit = kFirstUnit + 4;  // after three maps and a table
+constexpr int kReliefUnit = kFirstUnit + kEnvironmentUnits;
 
 struct Role {
-    const char *define, *name;
+    const char* name;
     const EnvironmentLookup* lookup;
 };
 
 std::array<Role, 3> rolesOf(const EnvironmentSurface& s) {
-    return {{{"NACRE_ENV_REFLECTION", "reflection", &s.reflection},
-             {"NACRE_ENV_TRANSMISSION", "transmission", &s.transmission},
-             {"NACRE_ENV_DIFFUSE", "diffuse", &s.diffuse}}};
+    return {{{"reflection", &s.reflection}, {"transmission", &s.transmission}, {"diffuse", &s.diffuse}}};
 }
 
-const char* weightName(const EnvironmentSurface& s) {
-    if (s.table == nullptr) return "NACRE_ENV_ONE";
-    if (s.table->isFresnel()) return "NACRE_ENV_FRESNEL";
-    return s.multipleScattering ? "NACRE_ENV_SCALE_BIAS_MULTIPLE" : "NACRE_ENV_SCALE_BIAS";
+EnvironmentWeight weightOf(const EnvironmentSurface& s) {
+    if (s.table == nullptr) return EnvironmentWeight::One;
+    if (s.table->isFresnel()) return EnvironmentWeight::Fresnel;
+    return s.multipleScattering ? EnvironmentWeight::ScaleBiasMultiple : EnvironmentWeight::ScaleBias;
+}
+
+const char* weightName(EnvironmentWeight weight) {
+    static constexpr const char* kNames[] = {"NACRE_ENV_ONE", "NACRE_ENV_FRESNEL", "NACRE_ENV_SCALE_BIAS",
+                                             "NACRE_ENV_SCALE_BIAS_MULTIPLE"};
+    return kNames[static_cast<int>(weight)];
 }
 
 void check(const EnvironmentSurface& s) {
@@ -46,25 +50,43 @@ void check(const EnvironmentSurface& s) {
     require(std::isfinite(s.ior) && s.ior > 0, "environment pass: ior must be finite, > 0");
 }
 
-ShaderDefines definesOf(const EnvironmentSurface& s) {
-    ShaderDefines out;
-    for (const Role& role : rolesOf(s)) {
-        if (role.lookup->map == nullptr) continue;
-        if (out.empty()) out = role.lookup->map->defines();
-        out.emplace_back(role.define, "1");
-    }
-    out.emplace_back("NACRE_ENV_WEIGHT", weightName(s));
-    out.emplace_back("NACRE_ENV_COMBINE", s.combine == EnvironmentCombine::Add ? "NACRE_ENV_ADD" : "NACRE_ENV_BLEND");
-    return out;
-}
-
 double clampedLod(const EnvironmentLookup& lookup) {
     return lookup.map == nullptr ? 0 : std::clamp(lookup.lod, 0.0, lookup.map->levels() - 1.0);
 }
 
+}  // namespace
+
+ShaderDefines environmentDefines(const EnvironmentChoices& c) {
+    ShaderDefines out;
+    const std::pair<bool, const char*> roles[] = {{c.reflection, "NACRE_ENV_REFLECTION"},
+                                                  {c.transmission, "NACRE_ENV_TRANSMISSION"},
+                                                  {c.diffuse, "NACRE_ENV_DIFFUSE"}};
+    for (const auto& [used, define] : roles) {
+        if (!used) continue;
+        if (out.empty()) out = layoutDefines(c.layout);
+        out.emplace_back(define, "1");
+    }
+    out.emplace_back("NACRE_ENV_WEIGHT", weightName(c.weight));
+    out.emplace_back("NACRE_ENV_COMBINE", c.combine == EnvironmentCombine::Add ? "NACRE_ENV_ADD" : "NACRE_ENV_BLEND");
+    return out;
+}
+
+ShaderDefines environmentDefines(const EnvironmentSurface& s) {
+    check(s);
+    EnvironmentChoices choices{EnvLayout::Cube,
+                               s.reflection.map != nullptr,
+                               s.transmission.map != nullptr,
+                               s.diffuse.map != nullptr,
+                               weightOf(s),
+                               s.combine};
+    for (const Role& role : rolesOf(s))
+        if (role.lookup->map != nullptr) choices.layout = role.lookup->map->layout();
+    return environmentDefines(choices);
+}
+
 /// Maps and table have units of their own: samplers of two kinds on one unit fail the draw.
-void bindSurface(const Program& program, const EnvironmentSurface& s) {
-    int unit = kFirstUnit;
+void bindEnvironment(const Program& program, const EnvironmentSurface& s, int firstUnit) {
+    int unit = firstUnit;
     for (const Role& role : rolesOf(s)) {
         const GpuEnvironment* map = role.lookup->map;
         if (map != nullptr) {
@@ -85,29 +107,25 @@ void bindSurface(const Program& program, const EnvironmentSurface& s) {
 }
 
 template <class Brdf>
-void renderLit(ProgramLoader& loader, const RenderTarget& target, const GpuMesh& mesh, const LitView& view,
-               const Brdf& brdf, const EnvironmentSurface& surface, const BumpSurface& relief) {
-    check(surface);
+static void renderLit(ProgramLoader& loader, const RenderTarget& target, const GpuMesh& mesh, const LitView& view,
+                      const Brdf& brdf, const EnvironmentSurface& surface, const BumpSurface& relief) {
     checkLights(view.lights, kMaxLights);
     const ShaderDefines defines =
-        joined(joined(withLights(brdf.defines(), view), definesOf(surface)), bumpDefines(relief));
+        joined(joined(withLights(brdf.defines(), view), environmentDefines(surface)), bumpDefines(relief));
     const Program& program = loader.load("lit.vert.glsl", "lit_environment.frag.glsl", defines);
     brdf.bind(program);
-    bindSurface(program, surface);
+    bindEnvironment(program, surface, kFirstUnit);
     bindBump(program, relief, kReliefUnit);
     setView(program, view.camera, target);
     setLights(program, view);
     drawMesh(program, target, mesh, view.toWorld);
 }
 
-}  // namespace
-
 void renderEnvironment(ProgramLoader& loader, const RenderTarget& target, const GpuMesh& mesh, const Camera& camera,
                        const EnvironmentSurface& surface, const BumpSurface& relief, const glm::dmat4& toWorld) {
-    check(surface);
     const Program& program =
-        loader.load("lit.vert.glsl", "environment.frag.glsl", joined(definesOf(surface), bumpDefines(relief)));
-    bindSurface(program, surface);
+        loader.load("lit.vert.glsl", "environment.frag.glsl", joined(environmentDefines(surface), bumpDefines(relief)));
+    bindEnvironment(program, surface, kFirstUnit);
     bindBump(program, relief, kReliefUnit);
     setView(program, camera, target);
     drawMesh(program, target, mesh, toWorld);
@@ -129,9 +147,8 @@ void renderSky(ProgramLoader& loader, const RenderTarget& target, const Camera& 
     EnvironmentSurface surface;
     surface.reflection = sky;
     surface.fromWorld = fromWorld;
-    check(surface);
-    const Program& program = loader.load("sky.vert.glsl", "sky.frag.glsl", definesOf(surface));
-    bindSurface(program, surface);
+    const Program& program = loader.load("sky.vert.glsl", "sky.frag.glsl", environmentDefines(surface));
+    bindEnvironment(program, surface, kFirstUnit);
     const double aspect = static_cast<double>(target.width()) / target.height();
     program.set("nacre_clip_to_world", glm::mat4(glm::inverse(camera.projection(aspect) * camera.view())));
     target.bind();

@@ -32,6 +32,25 @@ struct EnvironmentSurface {
     Mat3 fromWorld{1};  ///< turns world directions into the maps': the surrounding turns by its inverse
 };
 
+/// What W is; the order is shaders/nacre/bind/environment.glsl's.
+enum class EnvironmentWeight { One, Fresnel, ScaleBias, ScaleBiasMultiple };
+
+/// What of a surface a program is made for.
+struct EnvironmentChoices {
+    EnvLayout layout = EnvLayout::Cube;  ///< of the maps
+    bool reflection = false, transmission = false, diffuse = false;
+    EnvironmentWeight weight = EnvironmentWeight::One;
+    EnvironmentCombine combine = EnvironmentCombine::Add;
+};
+ShaderDefines environmentDefines(const EnvironmentChoices& choices);
+/// \throws std::invalid_argument when maps have different layouts, an lod isn't finite or ior ≤ 0
+ShaderDefines environmentDefines(const EnvironmentSurface& surface);
+
+/// Binds maps and table to units firstUnit …, each its own (samplers of two kinds on one unit fail the draw), and sets
+/// the uniforms of nacre/bind/environment.glsl; leaves `program` in use.
+inline constexpr int kEnvironmentUnits = 4;
+void bindEnvironment(const Program& program, const EnvironmentSurface& surface, int firstUnit);
+
 /// Draws into `target` as renderFactored does: depth test and write on, culling and blending off, left so; the program
 /// in use and textures bound from unit 0. Doesn't clear. Surfaces seen from behind are black.
 /// \throws std::invalid_argument when maps have different layouts, an lod isn't finite or ior ≤ 0; nacre::Error from

@@ -171,18 +171,22 @@ bool GpuBump::has(BumpShadow shadow) const {
     return isEllipse(shadow) ? shape_.has_value() : isHorizon(shadow) ? horizons_.has_value() : true;
 }
 
+ShaderDefines bumpDefines(BumpShadow shadow, Wrap wrap, bool roughness, int indirectLight) {
+    ShaderDefines out{{"NACRE_BUMP", "1"}};
+    if (isEllipse(shadow)) out.emplace_back("NACRE_BUMP_SHADOW", "NACRE_BUMP_ELLIPSE");
+    if (isHorizon(shadow)) out.emplace_back("NACRE_BUMP_SHADOW", "NACRE_BUMP_HORIZON");
+    if (shadow == BumpShadow::Ellipse || shadow == BumpShadow::Horizon) out.emplace_back("NACRE_BUMP_SOFT", "1");
+    if (wrap == Wrap::Mirror) out.emplace_back("NACRE_BUMP_MIRROR", "1");
+    if (roughness) out.emplace_back("NACRE_BUMP_ROUGHNESS", "1");
+    if (indirectLight >= 0) out.emplace_back("NACRE_BUMP_INDIRECT", std::to_string(indirectLight));
+    return out;
+}
+
 ShaderDefines bumpDefines(const BumpSurface& surface) {
     if (surface.map == nullptr) return {};
     check(surface);
-    ShaderDefines out{{"NACRE_BUMP", "1"}};
-    if (isEllipse(surface.shadow)) out.emplace_back("NACRE_BUMP_SHADOW", "NACRE_BUMP_ELLIPSE");
-    if (isHorizon(surface.shadow)) out.emplace_back("NACRE_BUMP_SHADOW", "NACRE_BUMP_HORIZON");
-    if (surface.shadow == BumpShadow::Ellipse || surface.shadow == BumpShadow::Horizon)
-        out.emplace_back("NACRE_BUMP_SOFT", "1");
-    if (surface.map->wrap() == Wrap::Mirror) out.emplace_back("NACRE_BUMP_MIRROR", "1");
-    if (surface.roughness) out.emplace_back("NACRE_BUMP_ROUGHNESS", "1");
-    if (surface.indirect != 0) out.emplace_back("NACRE_BUMP_INDIRECT", std::to_string(surface.indirectLight));
-    return out;
+    return bumpDefines(surface.shadow, surface.map->wrap(), surface.roughness,
+                       surface.indirect != 0 ? surface.indirectLight : -1);
 }
 
 void bindBump(const Program& program, const BumpSurface& surface, int firstUnit) {

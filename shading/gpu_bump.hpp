@@ -63,7 +63,9 @@ private:
     std::optional<TextureName> shape_, offset_, horizons_;
 };
 
-/// What a program must be loaded with; nothing for a smooth surface.
+/// What a program for a relief must be loaded with. \param indirectLight  a light's index, or -1: none
+ShaderDefines bumpDefines(BumpShadow shadow, Wrap wrap, bool roughness, int indirectLight);
+/// The same for a surface in use; nothing for a smooth one.
 /// \throws std::invalid_argument for a shadow or roughness that the maps don't have, tiles that aren't finite and > 0
 ShaderDefines bumpDefines(const BumpSurface& surface);
 

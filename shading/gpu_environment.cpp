@@ -148,10 +148,10 @@ GpuEnvironment::GpuEnvironment(std::span<const EnvMap> levels, const GpuEnvironm
     checkGl(fmt::format("environment map {} of size {}, {} levels", toString(layout_), size_, levels_));
 }
 
-ShaderDefines GpuEnvironment::defines() const {
+ShaderDefines layoutDefines(EnvLayout layout) {
     static constexpr const char* kNames[] = {"NACRE_ENV_LATLONG", "NACRE_ENV_CUBE", "NACRE_ENV_DUAL_PARABOLOID",
                                              "NACRE_ENV_OCTAHEDRAL"};
-    return {{"NACRE_ENV_LAYOUT", kNames[static_cast<int>(layout_)]}};
+    return {{"NACRE_ENV_LAYOUT", kNames[static_cast<int>(layout)]}};
 }
 
 void GpuEnvironment::bind(int unit) const {

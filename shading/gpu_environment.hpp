@@ -18,6 +18,9 @@ struct GpuEnvironmentOptions {
     double scale = 1;
 };
 
+/// NACRE_ENV_LAYOUT, as shaders/nacre/bind/environment.glsl wants it.
+ShaderDefines layoutDefines(EnvLayout layout);
+
 /// Levels of one layout, finest first, as the mip levels of one texture: GL_TEXTURE_CUBE_MAP for Cube, else
 /// GL_TEXTURE_2D with the map's image as it is. Linear filter within levels; between them linear for a cube, while
 /// shaders blend the levels of the others themselves (nacre_env_chain), for each has its own N in the coordinates.
@@ -40,8 +43,7 @@ public:
     int levels() const { return levels_; }
     double scale() const { return scale_; }
     std::size_t bytes() const { return bytes_; }
-    /// NACRE_ENV_LAYOUT, as shaders/nacre/bind/environment.glsl wants it.
-    ShaderDefines defines() const;
+    ShaderDefines defines() const { return layoutDefines(layout_); }
     /// "cube" or "map": what follows nacre_env_reflection_ and its like in the sampler's name.
     const char* samplerKind() const { return layout_ == EnvLayout::Cube ? "cube" : "map"; }
     /// Binds to texture unit `unit` and leaves that unit active.

@@ -7,6 +7,7 @@
 #include <assimp/Importer.hpp>
 
 #include "core/error.hpp"
+#include "shading/assimp_mesh.hpp"
 #include "shading/mesh_attributes.hpp"
 
 namespace nacre {
@@ -14,9 +15,20 @@ namespace {
 
 glm::vec3 toGlm(const aiVector3D& v) { return {v.x, v.y, v.z}; }
 
-void append(Mesh& out, bool& hasNormals, const aiMesh& in, const std::string& path) {
+/// Unit length for every normal. \return false when one has no direction
+bool normalise(std::vector<glm::vec3>& normals) {
+    for (glm::vec3& n : normals) {
+        const double length = glm::length(Vec3(n));
+        if (!std::isfinite(length) || length < 1e-12) return false;
+        n = glm::vec3(Vec3(n) / length);
+    }
+    return true;
+}
+
+}  // namespace
+
+bool appendAssimpMesh(Mesh& out, const aiMesh& in, const std::string& path) {
     const auto base = static_cast<std::uint32_t>(out.positions.size());
-    hasNormals = hasNormals && in.HasNormals();
     for (unsigned i = 0; i < in.mNumVertices; ++i) {
         const glm::vec3 position = toGlm(in.mVertices[i]);
         if (!isFinite(Vec3(position))) throw Error(fmt::format("{}: vertex {} is not finite", path, base + i));
@@ -33,19 +45,18 @@ void append(Mesh& out, bool& hasNormals, const aiMesh& in, const std::string& pa
                     fmt::format("{}: face {} names vertex {}, of {}", path, i, face.mIndices[k], in.mNumVertices));
         out.triangles.push_back(glm::uvec3(face.mIndices[0], face.mIndices[1], face.mIndices[2]) + base);
     }
+    return in.HasNormals();
 }
 
-/// Unit length for every normal. \return false when one has no direction
-bool normalise(std::vector<glm::vec3>& normals) {
-    for (glm::vec3& n : normals) {
-        const double length = glm::length(Vec3(n));
-        if (!std::isfinite(length) || length < 1e-12) return false;
-        n = glm::vec3(Vec3(n) / length);
-    }
-    return true;
+MeshReport completeMesh(Mesh& mesh, bool hasNormals) {
+    MeshReport report;
+    report.degenerateTriangles = removeDegenerateTriangles(mesh);
+    if (mesh.triangles.empty()) return report;
+    report.madeNormals = !hasNormals || !normalise(mesh.normals);
+    if (report.madeNormals) report.standInNormals = makeNormals(mesh);
+    makeTangents(mesh);
+    return report;
 }
-
-}  // namespace
 
 LoadedMesh loadMesh(const std::filesystem::path& path) {
     const std::string name = path.string();
@@ -60,15 +71,12 @@ LoadedMesh loadMesh(const std::filesystem::path& path) {
     if (!scene) throw Error(fmt::format("{}: expected a mesh, found: {}", name, importer.GetErrorString()));
     LoadedMesh out;
     bool hasNormals = true;
-    for (unsigned i = 0; i < scene->mNumMeshes; ++i) append(out.mesh, hasNormals, *scene->mMeshes[i], name);
-    out.report.degenerateTriangles = removeDegenerateTriangles(out.mesh);
+    for (unsigned i = 0; i < scene->mNumMeshes; ++i)
+        hasNormals = appendAssimpMesh(out.mesh, *scene->mMeshes[i], name) && hasNormals;
+    out.report = completeMesh(out.mesh, hasNormals);
     if (out.mesh.triangles.empty())
         throw Error(fmt::format("{}: expected triangles, found none with area ({} degenerate)", name,
                                 out.report.degenerateTriangles));
-    out.report.madeNormals = !hasNormals || !normalise(out.mesh.normals);
-    if (out.report.madeNormals) out.report.standInNormals = makeNormals(out.mesh);
-    // Tangents are always made here: assimp's own would follow its own smoothing, and need uv.
-    makeTangents(out.mesh);
     return out;
 }
 

@@ -59,6 +59,8 @@ std::string typeName(GLenum type) {
             return "sampler2D";
         case GL_SAMPLER_2D_ARRAY:
             return "sampler2DArray";
+        case GL_SAMPLER_3D:
+            return "sampler3D";
         case GL_SAMPLER_CUBE:
             return "samplerCube";
         default:

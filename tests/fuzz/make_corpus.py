@@ -8,6 +8,7 @@ tests/core/exr_files.hpp, 9 × 9 texels or less in each compression.)"""
 import math
 import os
 import struct
+import zlib
 
 FLOAT, UINT8 = 10, 1
 corpus = os.path.join(os.path.dirname(__file__), "corpus")
@@ -106,3 +107,18 @@ write("tiff/big.tif", tiff(">", False, b"nan"))
 write("tiff/bigtiff.tif", tiff("<", True, b"-9999\0"))
 write("tiff/bigtiff_big.tif", tiff(">", True, b"-3.4028234663852886e+38\0"))
 write("tiff/no_number.tif", tiff("<", False, b"none\xff\0"))
+
+
+def chunk(kind, data):
+    return struct.pack(">I", len(data)) + kind + data + struct.pack(">I", zlib.crc32(kind + data))
+
+
+png = (b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", struct.pack(">IIBBBBB", 2, 1, 8, 0, 0, 0, 0)) +
+       chunk(b"IDAT", zlib.compress(b"\0\1\2")) + chunk(b"IEND", b""))
+write("png/grey.png", png)
+write("png/cut.png", png[:-5])
+boxes = b"".join(struct.pack("<9H", 0, 0, 0, 2, 1, 1, 3, 2, 2) for _ in range(3))
+write("volume/head.den", struct.pack("<H", 1) + boxes + struct.pack("<HI", 3, 12) + bytes(range(12)))
+for kind, bits, data in [("float", 32, struct.pack("<2f", 1, -2)), ("signed fixed", 16, struct.pack("<2h", 1, -2))]:
+    header = f"#INRIMAGE-4#{{\nXDIM=2\nYDIM=1\nZDIM=1\nVDIM=1\nTYPE={kind}\nPIXSIZE={bits} bits\nCPU=decm\nVX=2\n"
+    write(f"volume/{bits}.inr", header.encode().ljust(252, b"\n") + b"##}\n" + data)

@@ -16,6 +16,7 @@
 #include "core/error.hpp"
 #include "core/file.hpp"
 #include "core/image_file.hpp"
+#include "core/png_scan.hpp"
 #include "core/tiff_scan.hpp"
 #include "envmaps/env_asset.hpp"
 #include "envmaps/source.hpp"
@@ -24,6 +25,7 @@
 #include "factorize/measured/rgl.hpp"
 #include "factorize/measured/samples.hpp"
 #include "factorize/models/models.hpp"
+#include "shading/volume_file.hpp"
 
 namespace nacre::tests {
 
@@ -82,6 +84,11 @@ static void readExrBytes(std::span<const std::uint8_t> bytes) { readAsMap(parseE
 static void readRadianceBytes(std::span<const std::uint8_t> bytes) { readAsMap(parseRadianceImage(bytes, "input")); }
 
 static void readTiffBytes(std::span<const std::uint8_t> bytes) { scanTiff(bytes, "input"); }
+static void readPngBytes(std::span<const std::uint8_t> bytes) { scanPng(bytes, "input"); }
+static void readVolumeBytes(std::span<const std::uint8_t> bytes) {
+    for (const float v : parseVolume(bytes, "input").values)
+        if (!std::isfinite(v)) throw std::logic_error("a volume's value that isn't finite");
+}
 
 /// Feeds a reader of lines.
 template <typename Reader, typename Item>
@@ -106,6 +113,8 @@ const std::vector<FuzzTarget>& fuzzTargets() {
                                                     {"exr", readExrBytes},
                                                     {"radiance", readRadianceBytes},
                                                     {"tiff", readTiffBytes},
+                                                    {"png", readPngBytes},
+                                                    {"volume", readVolumeBytes},
                                                     {"env_queries", readLines<cli::EnvQueryReader, cli::EnvQuery>},
                                                     {"bump_queries", readLines<cli::BumpQueryReader, cli::BumpQuery>}};
     return targets;

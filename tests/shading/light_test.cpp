@@ -13,6 +13,7 @@ namespace {
 constexpr double kSinglePrecision = 1e-4;  // cosines hold 24 bits and are divided by the edge's width, 0.01 at least
 
 TEST(Spot, ShareInGlslAndCpp) {
+    test::context();
     const auto pairs = test::testPairs(1000);
     for (const SpotCone& cone : {SpotCone{glm::normalize(Vec3(0.2, -0.3, -1)), 0, kPi / 2},
                                  SpotCone{{0, 0, -1}, 0.4, 0.8}, SpotCone{{0, 0, -1}, 0.7, 0.7155}}) {

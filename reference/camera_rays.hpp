@@ -1,0 +1,27 @@
+// A camera as rays, where OpenGL has its pixel centres (Camera::projection).
+#pragma once
+
+#include "core/scene.hpp"
+#include "reference/embree_scene.hpp"
+
+namespace nacre {
+
+class CameraRays {
+public:
+    /// \param width, height  [pixels]; supersample: n × n rays a pixel on a regular grid
+    CameraRays(const Camera& camera, int width, int height, int supersample);
+
+    int samples() const { return supersample_ * supersample_; }
+    /// Ray k of pixel (x, y), row 0 on top: origin + t·direction with t the depth along the viewing axis, between the
+    /// near and far plane.
+    Ray at(int x, int y, int k) const;
+
+private:
+    glm::dmat4 toWorld_;
+    Vec2 halfExtent_;  ///< perspective: at depth 1; orthographic: at any depth
+    int width_, height_, supersample_;
+    bool orthographic_;
+    double near_, far_;
+};
+
+}  // namespace nacre

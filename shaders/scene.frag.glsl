@@ -1,0 +1,34 @@
+// A surface of a scene: the parts that its material is made of, in one shader. The program's #defines choose them:
+//   NACRE_SCENE_LAMPS        light of lamps by a BRDF (nacre/bind/lamps.glsl)
+//   NACRE_SCENE_SURROUNDING  light of the surrounding (nacre/bind/environment.glsl)
+// and those of nacre/bind/bump.glsl its relief. Ambient light is always there. C++: shading/scene_programs.hpp.
+#include "nacre/bind/bump.glsl"
+#include "nacre/bind/lights.glsl"
+#include "nacre/bind/view.glsl"
+#include "nacre/light.glsl"
+#ifdef NACRE_SCENE_LAMPS
+#include "nacre/bind/lamps.glsl"
+#endif
+#ifdef NACRE_SCENE_SURROUNDING
+#include "nacre/bind/environment.glsl"
+#endif
+
+in vec3 v_position;
+in vec3 v_normal;
+in vec4 v_tangent;
+in vec2 v_uv;
+
+out vec4 color;
+
+void main() {
+    vec3 to_eye = nacre_direction_to(nacre_eye, v_position);
+    NacreBump point = nacre_bump_point(nacre_frame(v_normal, v_tangent), v_tangent.w, v_uv, to_eye);
+    vec3 sum = nacre_ambient * point.visibility;
+#ifdef NACRE_SCENE_LAMPS
+    sum += nacre_lamps(point, to_eye, v_position);
+#endif
+#ifdef NACRE_SCENE_SURROUNDING
+    sum += nacre_env_radiance(to_eye, point.frame[2], point.visibility);
+#endif
+    color = vec4(sum, 1.0);
+}

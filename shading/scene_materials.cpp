@@ -1,0 +1,87 @@
+#include <fmt/format.h>
+
+#include <array>
+
+#include "factorize/models/models.hpp"
+#include "shading/scene_sections.hpp"
+
+namespace nacre {
+namespace {
+
+SceneLookup lookup(const JsonField& field, const SceneNames& names) {
+    field.requireKeys({"asset", "lod", "color"});
+    SceneLookup out;
+    out.asset = field.at("asset").nameIn(names.assets, "asset");
+    ifThere(field, "lod", [&](const JsonField& f) { out.lod = f.number(0, 32); });
+    ifThere(field, "color", [&](const JsonField& f) { out.color = f.color(); });
+    return out;
+}
+
+SceneSurrounding surrounding(const JsonField& field, const SceneNames& names) {
+    field.requireKeys({"reflection", "transmission", "diffuse", "ior", "table", "f0", "perceptualRoughness",
+                       "multipleScattering", "combine"});
+    SceneSurrounding out;
+    ifThere(field, "reflection", [&](const JsonField& f) { out.reflection = lookup(f, names); });
+    ifThere(field, "transmission", [&](const JsonField& f) { out.transmission = lookup(f, names); });
+    ifThere(field, "diffuse", [&](const JsonField& f) { out.diffuse = lookup(f, names); });
+    if (out.reflection.asset < 0 && out.transmission.asset < 0 && out.diffuse.asset < 0)
+        field.fail("expected \"reflection\", \"transmission\" or \"diffuse\", found none");
+    ifThere(field, "ior", [&](const JsonField& f) { out.ior = f.positive(); });
+    ifThere(field, "table", [&](const JsonField& f) { out.table = f.nameIn(names.assets, "asset"); });
+    ifThere(field, "f0", [&](const JsonField& f) { out.f0 = f.color(); });
+    ifThere(field, "perceptualRoughness", [&](const JsonField& f) { out.perceptualRoughness = f.number(0, 1); });
+    ifThere(field, "multipleScattering", [&](const JsonField& f) { out.multipleScattering = f.flag(); });
+    ifThere(field, "combine", [&](const JsonField& f) { out.blend = f.choice({"add", "blend"}) == 1; });
+    return out;
+}
+
+SceneRelief relief(const JsonField& field, const SceneNames& names) {
+    field.requireKeys({"asset", "shadow", "tiles", "roughness", "indirectLight", "albedo", "bounces", "paths"});
+    SceneRelief out;
+    out.asset = field.at("asset").nameIn(names.assets, "asset");
+    ifThere(field, "shadow", [&](const JsonField& f) {
+        static constexpr std::array kShadows = {BumpShadow::None, BumpShadow::HardEllipse, BumpShadow::Ellipse,
+                                                BumpShadow::HardHorizon, BumpShadow::Horizon};
+        out.shadow = kShadows[static_cast<std::size_t>(
+            f.choice({"none", "hard_ellipse", "ellipse", "hard_horizon", "horizon"}))];
+    });
+    ifThere(field, "tiles", [&](const JsonField& f) {
+        if (f.value().is_number()) {
+            out.tiles = Vec2(f.positive());
+        } else {
+            const auto items = f.items(2, 2);
+            out.tiles = {items[0].positive(), items[1].positive()};
+        }
+    });
+    ifThere(field, "roughness", [&](const JsonField& f) { out.roughness = f.flag(); });
+    ifThere(field, "indirectLight", [&](const JsonField& f) { out.indirectLight = f.nameIn(names.lights, "light"); });
+    for (const char* key : {"albedo", "bounces", "paths"})
+        if (const auto f = field.find(key); f && out.indirectLight < 0)
+            f->fail("expected \"indirectLight\" beside it, found none");
+    ifThere(field, "albedo", [&](const JsonField& f) {
+        out.albedo = f.color();
+        if (maxComponent(out.albedo) > 1) f.fail("expected an albedo of at most 1");
+    });
+    ifThere(field, "bounces", [&](const JsonField& f) { out.bounces = f.integer(0, 16); });
+    ifThere(field, "paths", [&](const JsonField& f) { out.paths = f.integer(1, 100000); });
+    return out;
+}
+
+}  // namespace
+
+SceneMaterial sceneMaterial(const std::string& name, const JsonField& field, const SceneNames& names) {
+    field.requireKeys({"brdf", "model", "ambient", "relief", "surrounding"});
+    SceneMaterial out;
+    out.name = name;
+    ifThere(field, "brdf", [&](const JsonField& f) { out.brdf = f.nameIn(names.assets, "asset"); });
+    ifThere(field, "model", [&](const JsonField& f) {
+        if (out.brdf >= 0) f.fail("expected \"brdf\" or \"model\", found both");
+        out.model = named(f, [&] { return makeModel(f.text()).source; });
+    });
+    ifThere(field, "ambient", [&](const JsonField& f) { out.ambient = f.color(); });
+    ifThere(field, "relief", [&](const JsonField& f) { out.relief = relief(f, names); });
+    ifThere(field, "surrounding", [&](const JsonField& f) { out.surrounding = surrounding(f, names); });
+    return out;
+}
+
+}  // namespace nacre

@@ -1,0 +1,386 @@
+#include "shading/scene_renderer.hpp"
+
+#include <epoxy/gl.h>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <glm/gtc/matrix_transform.hpp>
+
+#include "core/error.hpp"
+#include "factorize/models/models.hpp"
+#include "shading/context.hpp"
+#include "shading/environment_pass.hpp"
+#include "shading/gpu_relief_light.hpp"
+#include "shading/mean_light.hpp"
+#include "shading/pass_state.hpp"
+
+namespace nacre {
+namespace {
+
+constexpr int kEnvironmentUnit = kMaxFactoredTextures, kReliefUnit = kEnvironmentUnit + kEnvironmentUnits;
+
+/// A relief's bounced light is made again when its light has turned by this much [rad], far below what is seen.
+constexpr double kTurned = 2e-3;
+
+struct DrawnMesh {
+    std::optional<GpuMesh> gpu;  ///< none: without triangles
+    Vec3 centre{0};
+    double radius = 0;
+};
+
+DrawnMesh upload(const Mesh& mesh) {
+    DrawnMesh out;
+    if (mesh.triangles.empty()) return out;
+    out.gpu.emplace(mesh);
+    Vec3 low(mesh.positions.front()), high = low;
+    for (const glm::vec3& p : mesh.positions) low = glm::min(low, Vec3(p)), high = glm::max(high, Vec3(p));
+    out.centre = 0.5 * (low + high);
+    out.radius = 0.5 * glm::length(high - low);
+    return out;
+}
+
+bool sameMesh(const Mesh& a, const Mesh& b) {
+    return a.triangles == b.triangles && a.positions == b.positions && a.normals == b.normals &&
+           a.tangents == b.tangents && a.uvs == b.uvs;
+}
+
+/// Bounced light in the relief of one node, and what it was made of.
+struct NodeLight {
+    int asset = -1, version = 0, bounces = 0, paths = 0;
+    Rgb albedo{0};
+    Vec3 direction{0};
+    std::unique_ptr<GpuReliefLight> gpu;
+    // What `direction` was found for.
+    glm::dmat4 toWorld{0};
+    Light light;
+};
+
+bool sameLight(const Light& a, const Light& b) {
+    const bool cones =
+        a.cone.has_value() == b.cone.has_value() &&
+        (!a.cone || (a.cone->axis == b.cone->axis && a.cone->inner == b.cone->inner && a.cone->outer == b.cone->outer));
+    return a.directional == b.directional && a.position == b.position && a.color == b.color && cones;
+}
+
+/// One node of a frame.
+struct Draw {
+    std::size_t node = 0;
+    double nearest = 0;  ///< depth of the nearest point of its bounding sphere
+};
+
+Mat3 turnedByY(double angle) { return Mat3(glm::rotate(glm::dmat4(1), angle, Vec3(0, 1, 0))); }
+
+/// Times the parts of a frame, when asked to.
+class PassClock {
+public:
+    void start(bool on) {
+        on_ = on;
+        times.clear();
+        next_ = 0;
+    }
+    template <class Work>
+    void operator()(const char* name, Work&& work) {
+        if (!on_) return work();
+        const bool queries = epoxy_is_desktop_gl();
+        if (queries && next_ == queries_.size()) queries_.emplace_back();
+        glFinish();
+        const auto begin = std::chrono::steady_clock::now();
+        if (queries) glBeginQuery(GL_TIME_ELAPSED, queries_[next_].name());
+        work();
+        if (queries) glEndQuery(GL_TIME_ELAPSED);
+        glFinish();
+        PassTime time{name, std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count(), NAN};
+        if (queries) {
+            GLuint64 nanoseconds = 0;
+            glGetQueryObjectui64v(queries_[next_++].name(), GL_QUERY_RESULT, &nanoseconds);
+            time.gpuSeconds = static_cast<double>(nanoseconds) * 1e-9;
+        }
+        times.push_back(std::move(time));
+    }
+    std::vector<PassTime> times;
+
+private:
+    bool on_ = false;
+    std::size_t next_ = 0;
+    std::vector<Query> queries_;  ///< kept from frame to frame
+};
+
+}  // namespace
+
+struct SceneRenderer::State {
+    ProgramLoader& loader;
+    SceneDescription scene;
+    SceneAssets assets;
+    std::vector<AssetTraits> traits;
+    std::vector<DrawnMesh> meshes;
+    std::vector<std::optional<GpuDirectBrdf>> models;  ///< one a material: what Direct evaluates
+    std::map<std::size_t, NodeLight> nodeLights;       ///< of nodes whose relief has indirect light
+    PassClock clock;
+    bool timing = false;
+
+    State(ProgramLoader& programs, SceneDescription&& description)
+        : loader(programs), scene(std::move(description)), assets(scene.assets), traits(assets.traits()) {
+        checkScene(scene, traits);
+        for (const SceneMesh& mesh : scene.meshes) meshes.push_back(upload(mesh.mesh));
+        prepareModels();
+    }
+
+    void prepareModels() {
+        models.clear();
+        for (const SceneMaterial& m : scene.materials) {
+            const std::string model = directModelOf(scene, m, traits);
+            models.push_back(model.empty() ? std::nullopt : directBrdf(makeModel(model)));
+        }
+    }
+
+    const GpuAsset& asset(int index) const { return assets[static_cast<std::size_t>(index)]; }
+
+    EnvironmentLookup lookup(const SceneLookup& l) const {
+        if (l.asset < 0) return {};
+        return {&asset(l.asset).environment.value(), l.lod, l.color};
+    }
+    EnvironmentSurface surfaceOf(const SceneSurrounding& s) const {
+        EnvironmentSurface out;
+        out.reflection = lookup(s.reflection);
+        out.transmission = lookup(s.transmission);
+        out.diffuse = lookup(s.diffuse);
+        out.ior = s.ior;
+        if (s.table >= 0) out.table = &asset(s.table).table.value();
+        out.f0 = s.f0;
+        out.perceptualRoughness = s.perceptualRoughness;
+        out.multipleScattering = s.multipleScattering;
+        out.combine = s.blend ? EnvironmentCombine::Blend : EnvironmentCombine::Add;
+        out.fromWorld = turnedByY(-scene.sky.rotationY);
+        return out;
+    }
+
+    const SceneMaterial& materialOf(std::size_t node) const {
+        return scene.materials[static_cast<std::size_t>(scene.nodes[node].material)];
+    }
+    const DrawnMesh* meshOf(std::size_t node) const {
+        const int mesh = scene.nodes[node].mesh;
+        if (mesh < 0 || !meshes[static_cast<std::size_t>(mesh)].gpu) return nullptr;
+        return &meshes[static_cast<std::size_t>(mesh)];
+    }
+
+    void updateNodeLight(std::size_t node, const SceneRelief& relief, const glm::dmat4& toWorld, const Light& light) {
+        NodeLight& kept = nodeLights[node];
+        const auto index = static_cast<std::size_t>(relief.asset);
+        const bool same = kept.gpu && kept.asset == relief.asset && kept.version == assets.version(index) &&
+                          kept.bounces == relief.bounces && kept.paths == relief.paths && kept.albedo == relief.albedo;
+        if (!same) {
+            const BumpMaps maps = assets.readBump(index);
+            if (!maps.heights || !maps.scatter)
+                throw Error(fmt::format("{}: expected heights and a scatter map, found them gone",
+                                        scene.assets[index].file.string()));
+            GpuReliefLightOptions options;
+            options.albedo = relief.albedo;
+            options.bounces = relief.bounces;
+            options.paths = relief.paths;
+            kept = NodeLight{
+                relief.asset,
+                assets.version(index),
+                relief.bounces,
+                relief.paths,
+                relief.albedo,
+                Vec3(0),
+                std::make_unique<GpuReliefLight>(loader, HeightMap{*maps.heights, maps.wrap}, *maps.scatter, options),
+                glm::dmat4(0),
+                {}};
+        } else if (kept.toWorld == toWorld && sameLight(kept.light, light)) {
+            return;
+        }
+        const auto mesh = static_cast<std::size_t>(scene.nodes[node].mesh);
+        const Vec3 direction = meanLightDirection(scene.meshes[mesh].mesh, toWorld, light);
+        kept.toWorld = toWorld;
+        kept.light = light;
+        if (glm::length(direction - kept.direction) < kTurned) return;
+        kept.gpu->update({.light = direction});
+        kept.direction = direction;
+    }
+
+    void updateNodeLights(const SceneSwitches& on, const std::vector<glm::dmat4>& nodes,
+                          const std::vector<Light>& lights) {
+        for (std::size_t i = 0; i < scene.nodes.size(); ++i) {
+            if (!meshOf(i) || !takesLamps(scene, materialOf(i), on)) continue;
+            const std::optional<SceneRelief> relief = reliefOf(materialOf(i), traits, on);
+            if (relief && relief->indirectLight >= 0)
+                updateNodeLight(i, *relief, nodes[i], lights[static_cast<std::size_t>(relief->indirectLight)]);
+        }
+    }
+
+    BumpSurface bumpOf(std::size_t node, const SceneRelief& relief, bool lamps) const {
+        BumpSurface out{&asset(relief.asset).bump.value(), relief.shadow, relief.tiles, relief.roughness};
+        if (!lamps || relief.indirectLight < 0) return out;
+        out.indirect = nodeLights.at(node).gpu->scattered();
+        out.indirectLight = relief.indirectLight;
+        return out;
+    }
+
+    /// Everything but the node's place.
+    void bindMaterial(const Program& program, std::size_t node, const SceneSwitches& on, const LitView& view) const {
+        const SceneMaterial& m = materialOf(node);
+        const bool lamps = takesLamps(scene, m, on);
+        const bool vertex = lamps && on.reflectance == SceneReflectance::FastPhong;
+        if (lamps) {
+            const auto& model = models[static_cast<std::size_t>(scene.nodes[node].material)];
+            if (m.brdf < 0 || (on.reflectance == SceneReflectance::Direct && model))
+                model->bind(program);
+            else
+                asset(m.brdf).brdf->bind(program);
+        }
+        if (m.surrounding && on.surrounding && !vertex)
+            bindEnvironment(program, surfaceOf(*m.surrounding), kEnvironmentUnit);
+        const std::optional<SceneRelief> relief = reliefOf(m, traits, on);
+        if (relief && !vertex) bindBump(program, bumpOf(node, *relief, lamps), kReliefUnit);
+        setLights(program, view);
+    }
+
+    void drawNodes(const RenderTarget& target, const Camera& camera, const SceneSwitches& on,
+                   const std::vector<glm::dmat4>& nodes, const std::vector<Light>& lights) {
+        const glm::dmat4 toView = camera.view();
+        std::vector<Draw> draws;
+        for (std::size_t i = 0; i < scene.nodes.size(); ++i) {
+            const DrawnMesh* mesh = meshOf(i);
+            if (!mesh) continue;
+            const glm::dmat3 m(nodes[i]);
+            const double scale =
+                std::sqrt(std::max({glm::dot(m[0], m[0]), glm::dot(m[1], m[1]), glm::dot(m[2], m[2])}));
+            const double depth = -(toView * (nodes[i] * Vec4(mesh->centre, 1))).z;
+            draws.push_back({i, depth - scale * mesh->radius});
+        }
+        // Front to back: what is hidden is rejected before it is shaded.
+        std::stable_sort(draws.begin(), draws.end(),
+                         [](const Draw& a, const Draw& b) { return a.nearest < b.nearest; });
+        LitView view{camera, lights};
+        const Program* program = nullptr;
+        int material = -1;
+        for (const Draw& draw : draws) {
+            const SceneMaterial& m = materialOf(draw.node);
+            const SceneProgram wanted = materialProgram(scene, m, traits, on);
+            const Program& next = loader.load(wanted.vertex, wanted.fragment, wanted.defines);
+            const bool own = nodeLights.count(draw.node) != 0;  // its texture is the node's, not the material's
+            if (&next != program || material != scene.nodes[draw.node].material || own) {
+                view.ambient = on.ambient ? m.ambient : Rgb(0);
+                bindMaterial(next, draw.node, on, view);
+                setView(next, camera, target);
+                program = &next;
+                material = own ? -1 : scene.nodes[draw.node].material;
+            }
+            drawMesh(next, target, *meshOf(draw.node)->gpu, nodes[draw.node]);
+        }
+    }
+
+    void render(const RenderTarget& target, const Camera& camera, double time, const SceneSwitches& on) {
+        const std::vector<glm::dmat4> nodes = nodeTransforms(scene, time);
+        const std::vector<Light> lights = lightsInWorld(scene, nodes);
+        checkLights(lights, kMaxLights);
+        clock.start(timing);
+        clock("relief light", [&] { updateNodeLights(on, nodes, lights); });
+        clock("surfaces", [&] {
+            target.clear(glm::vec4(glm::vec3(on.sky ? scene.sky.color : Rgb(0)), 1));
+            drawNodes(target, camera, on, nodes, lights);
+        });
+        if (scene.sky.asset < 0 || !on.sky) return;
+        clock("sky", [&] {
+            renderSky(loader, target, camera, {&asset(scene.sky.asset).environment.value(), scene.sky.lod, Rgb(1)},
+                      turnedByY(-scene.sky.rotationY));
+        });
+    }
+
+    /// Takes the value, unless the scene is unsound with it.
+    template <class T>
+    void edit(T& member, T value) {
+        std::swap(member, value);
+        try {
+            checkScene(scene, traits);
+        } catch (...) {
+            std::swap(member, value);
+            throw;
+        }
+        prepareModels();
+    }
+
+    void setScene(SceneDescription&& next) {
+        SceneAssets nextAssets = assets;
+        nextAssets.open(next.assets);
+        std::vector<AssetTraits> nextTraits = nextAssets.traits();
+        checkScene(next, nextTraits);
+        std::vector<DrawnMesh> nextMeshes(next.meshes.size());
+        std::vector<std::pair<std::size_t, std::size_t>> moves;
+        std::vector<bool> taken(meshes.size(), false);
+        for (std::size_t i = 0; i < next.meshes.size(); ++i) {
+            std::size_t old = 0;
+            while (old < meshes.size() && (taken[old] || !sameMesh(scene.meshes[old].mesh, next.meshes[i].mesh))) ++old;
+            if (old == meshes.size()) {
+                nextMeshes[i] = upload(next.meshes[i].mesh);
+                continue;
+            }
+            taken[old] = true;
+            moves.emplace_back(old, i);
+        }
+        for (const auto& [from, to] : moves) nextMeshes[to] = std::move(meshes[from]);
+        scene = std::move(next);
+        assets = std::move(nextAssets);
+        traits = std::move(nextTraits);
+        meshes = std::move(nextMeshes);
+        nodeLights.clear();
+        prepareModels();
+    }
+};
+
+/// What the shaders need, checked once: the driver's own messages would say less.
+static void requireVersion() {
+    const auto* text = reinterpret_cast<const char*>(glGetString(GL_VERSION));
+    const bool desktop = epoxy_is_desktop_gl();
+    const int version = epoxy_gl_version();
+    if (text == nullptr || version < (desktop ? 33 : 30))
+        throw Error(fmt::format("scene: expected OpenGL 3.3 or OpenGL ES 3.0, found {}", text ? text : "no context"));
+}
+
+SceneRenderer::SceneRenderer(ProgramLoader& loader, SceneDescription scene) {
+    requireVersion();
+    state_ = std::make_unique<State>(loader, std::move(scene));
+}
+SceneRenderer::~SceneRenderer() = default;
+SceneRenderer::SceneRenderer(SceneRenderer&&) noexcept = default;
+SceneRenderer& SceneRenderer::operator=(SceneRenderer&&) noexcept = default;
+
+const SceneDescription& SceneRenderer::scene() const { return state_->scene; }
+const SceneAssets& SceneRenderer::assets() const { return state_->assets; }
+
+void SceneRenderer::render(const RenderTarget& target, const Camera& camera, double time) {
+    state_->render(target, camera, time, switches);
+}
+
+void SceneRenderer::setTiming(bool on) { state_->timing = on; }
+const std::vector<PassTime>& SceneRenderer::passes() const { return state_->clock.times; }
+
+void SceneRenderer::setLight(std::size_t light, const SceneLight& value) {
+    state_->edit(state_->scene.lights.at(light), value);
+}
+void SceneRenderer::setMaterial(std::size_t material, const SceneMaterial& value) {
+    state_->edit(state_->scene.materials.at(material), value);
+}
+void SceneRenderer::setNodeMaterial(std::size_t node, int material) {
+    state_->edit(state_->scene.nodes.at(node).material, material);
+}
+void SceneRenderer::setSky(const SceneSky& value) { state_->edit(state_->scene.sky, value); }
+void SceneRenderer::setScene(SceneDescription scene) { state_->setScene(std::move(scene)); }
+
+std::vector<AssetChange> SceneRenderer::reloadAssets() {
+    std::vector<AssetChange> changes =
+        state_->assets.reload([this](const std::vector<AssetTraits>& traits) { checkScene(state_->scene, traits); });
+    if (!changes.empty()) {
+        state_->traits = state_->assets.traits();
+        state_->prepareModels();
+    }
+    return changes;
+}
+
+std::vector<ListedProgram> SceneRenderer::programs() const {
+    return scenePrograms(state_->scene, state_->traits, switches);
+}
+
+}  // namespace nacre

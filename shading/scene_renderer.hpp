@@ -1,0 +1,70 @@
+// Draws a SceneDescription: every node with its material, the lights' shadow maps, the surrounding as background.
+// reference/scene_trace.hpp traces the same description.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "core/scene_description.hpp"
+#include "shading/program.hpp"
+#include "shading/render_target.hpp"
+#include "shading/scene_assets.hpp"
+#include "shading/scene_programs.hpp"
+
+namespace nacre {
+
+/// What a part of a frame took: `relief light`, `shadow maps`, `depth`, `surfaces`, `sky`.
+struct PassTime {
+    std::string name;
+    double wallSeconds = 0;  ///< between two glFinish
+    double gpuSeconds = 0;   ///< GL_TIME_ELAPSED; NaN where the context has none (OpenGL ES)
+};
+
+/// Owns the scene's GPU objects. The context that was current in the constructor must be current in every call.
+class SceneRenderer {
+public:
+    /// \param loader  outlives this
+    /// \throws std::invalid_argument and nacre::Error: checkScene, SceneAssets::open, a model without a shader form,
+    ///         more than kMaxLights lights, a context older than OpenGL 3.3 or ES 3.0
+    SceneRenderer(ProgramLoader& loader, SceneDescription scene);
+    ~SceneRenderer();
+    SceneRenderer(SceneRenderer&&) noexcept;
+    SceneRenderer& operator=(SceneRenderer&&) noexcept;
+
+    const SceneDescription& scene() const;
+    const SceneAssets& assets() const;
+
+    /// Clears the target and draws the scene as it stands at `time` [s]. Alpha is 1 everywhere.
+    /// Indirect light of reliefs and shadow maps are made again only when what they depend on has changed. The first
+    /// frame compiles programs. Leaves depth test and write on, culling and blending off.
+    void render(const RenderTarget& target, const Camera& camera, double time = 0);
+    void render(const RenderTarget& target, double time = 0) { render(target, scene().camera, time); }
+
+    SceneSwitches switches;  ///< of the next frame; change it freely
+
+    /// With timing on, passes() tells what the parts of the last frame took; it costs a glFinish a part.
+    void setTiming(bool on);
+    const std::vector<PassTime>& passes() const;
+
+    /// Edits. Each checks the new scene as the constructor does; on failure nothing has changed.
+    void setLight(std::size_t light, const SceneLight& value);
+    void setMaterial(std::size_t material, const SceneMaterial& value);
+    void setNodeMaterial(std::size_t node, int material);
+    void setSky(const SceneSky& value);
+    /// Another scene, or the same one read again: assets and meshes that didn't change stay loaded.
+    void setScene(SceneDescription scene);
+
+    /// Assets whose files changed (SceneAssets::reload). One that no longer fits the scene keeps its last good state
+    /// too.
+    std::vector<AssetChange> reloadAssets();
+
+    /// Programs of the scene under the present switches.
+    std::vector<ListedProgram> programs() const;
+
+private:
+    struct State;
+    std::unique_ptr<State> state_;
+};
+
+}  // namespace nacre
