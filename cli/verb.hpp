@@ -46,6 +46,7 @@ Verb fresnelVerb(Context& context);
 Verb bumpVerb(Context& context);
 Verb shVerb(Context& context);
 Verb bakeVerb(Context& context);
+Verb renderVerb(Context& context);
 
 /// The whole command but for main. \return the exit code
 int runCommand(int argc, const char* const* argv);

@@ -10,7 +10,7 @@
 #include "cli/terminal.hpp"
 #include "cli/verb.hpp"
 #include "core/error.hpp"
-#include "shading/scene_assets.hpp"
+#include "shading/scene_manifest.hpp"
 
 namespace nacre::cli {
 

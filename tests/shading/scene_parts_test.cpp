@@ -1,6 +1,6 @@
 // Bounds and cameras of scenes, scenes put into others, and what manifests name.
-#include "shading/scene_assets.hpp"
 #include "shading/scene_bounds.hpp"
+#include "shading/scene_manifest.hpp"
 #include "shading/scene_merge.hpp"
 #include "tests/shading/scene_files.hpp"
 
