@@ -96,7 +96,7 @@ static void requireKnownVerb(const std::vector<Verb>& verbs, int argc, const cha
 
 static std::vector<Verb> makeVerbs(Context& context) {
     return {factorizeVerb(context), envmapVerb(context), bumpVerb(context),   fresnelVerb(context), shVerb(context),
-            infoVerb(context),      evalVerb(context),   modelsVerb(context), methodsVerb(context)};
+            infoVerb(context),      evalVerb(context),   modelsVerb(context), methodsVerb(context), viewVerb(context)};
 }
 
 static int parseAndRun(int argc, const char* const* argv) {
