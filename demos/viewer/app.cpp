@@ -200,7 +200,10 @@ private:
     }
 
     void printTrace(bool fresh) {
+        int x = 0, y = 0;
+        glfwGetWindowPos(window_.handle(), &x, &y);
         nlohmann::json line = {{"frame", shownFrames_},
+                               {"window", {x, y}},
                                {"pictures", session_.pictures()},
                                {"fresh", fresh},
                                {"width", session_.width()},
@@ -283,7 +286,6 @@ private:
     }
 
     void press(int button, bool down, int mods) {
-        glfwGetCursorPos(window_.handle(), &mouse_.x, &mouse_.y);
         if (!down) {
             if (drag_ == Drag::Orbit && !moved_ && button == GLFW_MOUSE_BUTTON_LEFT) choose();
             drag_ = Drag::None;

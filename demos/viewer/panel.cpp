@@ -143,8 +143,8 @@ void sections(ViewerSession& session, Comparison& comparison, PanelState& state)
 }  // namespace
 
 void drawPanel(ViewerSession& session, Comparison& comparison, PanelState& state, Vec2 origin, Vec2 window) {
-    drawMarks(session, state, origin);
     if (state.open) {
+        drawMarks(session, state, origin);
         ImGui::SetNextWindowPos(ImVec2(0, 0));
         ImGui::SetNextWindowSize(ImVec2(kPanelWidth, static_cast<float>(window.y)));
         if (ImGui::Begin("nacre", nullptr,
