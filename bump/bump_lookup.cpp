@@ -28,6 +28,13 @@ int nearestIndex(double c, int size, Wrap wrap) {
     return wrapIndex(std::min(static_cast<int>(inside * size), static_cast<int>(period) * size - 1), size, wrap);
 }
 
+/// d of the surface as the relief of the tile at (u, v) has it, and the other way. Twin: nacre_bump_mirror.
+Vec3 turnedOver(const Vec3& d, double u, double v, Wrap wrap) {
+    if (wrap != Wrap::Mirror) return d;
+    const auto side = [](double c) { return std::floor(c) - 2 * std::floor(std::floor(c) / 2) == 0 ? 1.0 : -1.0; };
+    return {d.x * side(u), d.y * side(v), d.z};
+}
+
 float horizonAt(const HorizonMap& map, double u, double v, Wrap wrap, double azimuth) {
     const int count = map.azimuths();
     const double turns = azimuth / (2 * kPi);
@@ -55,8 +62,9 @@ std::array<float, 4> sampleWrapped(const Image& image, double u, double v, Wrap 
     return out;
 }
 
-double litMargin(const BumpMaps& maps, double u, double v, const Vec3& light) {
+double litMargin(const BumpMaps& maps, double u, double v, const Vec3& towards) {
     require(maps.ellipses || maps.horizons, "litMargin: expected ellipses or horizons, found neither");
+    const Vec3 light = turnedOver(towards, u, v, maps.wrap);
     if (light.z < 0) return -1;
     if (maps.ellipses) {
         const auto m = sampleWrapped(maps.ellipses->shape, u, v, maps.wrap);
@@ -78,7 +86,7 @@ Seen seenFrom(const BumpMaps& maps, double u, double v, const Vec3& direction) {
     require(maps.scatter && maps.scatter->count() > 0, "seenFrom: expected a scatter map, found none");
     const ScatterMap& scatter = *maps.scatter;
     Seen out;
-    out.direction = nearestDirection(scatter, direction);
+    out.direction = nearestDirection(scatter, turnedOver(direction, u, v, maps.wrap));
     const int x = nearestIndex(u, maps.width, maps.wrap), y = nearestIndex(v, maps.height, maps.wrap);
     const double distance = scatter.distance[out.direction].at(x, y, 0);
     out.hit = distance >= 0;
@@ -90,7 +98,7 @@ Vec3 normalAt(const BumpMaps& maps, double u, double v) {
     require(maps.normals.has_value(), "normalAt: expected normals, found none");
     const auto n = sampleWrapped(maps.normals->levels[0], u, v, maps.wrap);
     const Vec3 sum(n[0], n[1], n[2]);
-    return glm::length(sum) > 0 ? glm::normalize(sum) : Vec3(0, 0, 1);
+    return glm::length(sum) > 0 ? turnedOver(glm::normalize(sum), u, v, maps.wrap) : Vec3(0, 0, 1);
 }
 
 }  // namespace nacre

@@ -1,4 +1,5 @@
-// What a shader gets out of a bump asset at a point (u, v): the lookups in C++.
+// What a shader gets out of a bump asset at a point (u, v): the lookups in C++. Directions are the surface's; in
+// mirrored tiles the relief is turned over, and they with it.
 #pragma once
 
 #include <array>
@@ -23,7 +24,7 @@ std::size_t nearestDirection(const ScatterMap& map, const Vec3& direction);
 
 struct Seen {
     bool hit = false;
-    Vec2 uv{0};                 ///< of the point seen; not wrapped, so beyond [0, 1] where the ray crosses a border
+    Vec2 uv{0};  ///< of the point seen, from the first tile (unturned); beyond [0, 1] where the ray crosses a border
     std::size_t direction = 0;  ///< the stored one
 };
 

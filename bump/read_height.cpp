@@ -158,4 +158,16 @@ nlohmann::json toJson(const HeightReport& r) {
             {"file_nodata", number(r.fileNodata)}};
 }
 
+HeightOptions heightOptionsFrom(const nlohmann::json& report, Wrap wrap) {
+    HeightOptions options;
+    options.scale = report.at("scale").get<double>();
+    options.texelSize = report.at("texel_size").get<double>();
+    options.wrap = wrap;
+    if (const nlohmann::json& nodata = report.at("nodata"); !nodata.is_null())
+        options.nodata = nodata.is_string() ? NAN : nodata.get<double>();
+    options.channel = report.at("channel").get<std::string>();
+    if (options.channel == "r=g=b") options.channel = "auto";
+    return options;
+}
+
 }  // namespace nacre

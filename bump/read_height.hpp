@@ -33,6 +33,8 @@ struct HeightReport {
     std::optional<double> fileNodata{};  ///< the GeoTIFF's own, which makes holes too
 };
 nlohmann::json toJson(const HeightReport& report);
+/// How a file was read, from what toJson wrote of it. \throws nlohmann::json::exception when something is missing
+HeightOptions heightOptionsFrom(const nlohmann::json& report, Wrap wrap);
 
 struct HeightField {
     HeightMap map;  ///< heights over the texel size; row 0 is the file's first row

@@ -4,6 +4,8 @@
 
 #include <array>
 
+#include "bump/horizon_map.hpp"
+#include "bump/normals.hpp"
 #include "bump/sweep.hpp"
 #include "core/error.hpp"
 #include "core/parallel.hpp"
@@ -14,32 +16,25 @@ namespace {
 
 constexpr double kVertical = 1e-6;  // of a direction's part along the plane: steeper ones see straight up or down
 
-/// Density of directions by their z: the cosine lobe about a normal, turned about z, averaged over the relief's
-/// normals.
-class DirectionDensity {
-public:
-    explicit DirectionDensity(const HeightMap& map);
+/// Shares of directions by their z, in bins u of z = u|u|: fine about the plane, where flat reliefs are hit.
+constexpr int kBins = 512;
+using Shares = std::array<double, kBins>;
+double binEdge(int bin) {
+    const double u = bin * 2.0 / kBins - 1;
+    return u * std::abs(u);
+}
+/// Place of z among the bins, 0 to kBins.
+double placeOf(double z) { return (std::copysign(std::sqrt(std::abs(z)), z) + 1) / 2 * kBins; }
 
-    double at(double z) const;
-    /// Inverse of the cumulated density: uniform in [0, 1) to z.
-    double sampleZ(double uniform) const;
-
-private:
-    static constexpr int kBins = 512;  // of z, −1 to 1
-    std::array<double, kBins> share_{};
-};
-
-/// Texels' slopes by central differences, as the cosines of their normals, counted in 64 classes.
-std::array<double, 64> tiltsOf(const HeightMap& map) {
+/// The texels' normals' cosines to z, counted in 64 classes. \param slopes  surfaceSlopes
+std::array<double, 64> tiltsOf(const HeightMap& map, const Image& slopes) {
     std::array<double, 64> counts{};
-    for (int y = 0; y < map.height(); ++y)
-        for (int x = 0; x < map.width(); ++x) {
-            const double p = 0.5 * (map.at(x + 1, y) - map.at(x - 1, y)),
-                         q = 0.5 * (map.at(x, y + 1) - map.at(x, y - 1));
-            if (!std::isfinite(p + q)) continue;
-            const double cosine = 1 / std::sqrt(1 + p * p + q * q);
-            counts[std::min<std::size_t>(static_cast<std::size_t>(cosine * 64), 63)] += 1;
-        }
+    for (std::size_t i = 0; i < map.heights.texelCount(); ++i) {
+        if (std::isnan(map.heights.data()[i])) continue;
+        const double p = slopes.data()[2 * i], q = slopes.data()[2 * i + 1];
+        const double cosine = 1 / std::sqrt(1 + p * p + q * q);
+        counts[std::min<std::size_t>(static_cast<std::size_t>(cosine * 64), 63)] += 1;
+    }
     return counts;
 }
 
@@ -52,36 +47,95 @@ double turnedCosine(double n, double z) {
     return (along * edge + across * std::sin(edge)) / kPi;
 }
 
-DirectionDensity::DirectionDensity(const HeightMap& map) {
-    std::array<double, 64> tilts = tiltsOf(map);
+/// So that they sum to 1; false when all are 0.
+bool normalise(Shares& shares) {
+    double sum = 0;
+    for (const double share : shares) sum += share;
+    for (double& share : shares) share = sum > 0 ? share / sum : 0;
+    return sum > 0;
+}
+
+/// The cosine lobe about a normal, turned about z, averaged over the relief's normals.
+Shares cosineShares(const HeightMap& map, const Image& slopes) {
+    std::array<double, 64> tilts = tiltsOf(map, slopes);
     double total = 0;
     for (const double count : tilts) total += count;
     if (total == 0) tilts[63] = total = 1;
+    Shares out{};
     for (int bin = 0; bin < kBins; ++bin) {
-        const double z = (bin + 0.5) * 2 / kBins - 1;
+        const double low = binEdge(bin), high = binEdge(bin + 1), z = (low + high) / 2;
         for (std::size_t k = 0; k < tilts.size(); ++k)
             if (tilts[k] > 0)
-                share_[bin] += tilts[k] / total * turnedCosine(k == 63 ? 1 : (static_cast<double>(k) + 0.5) / 64, z);
+                out[bin] += (high - low) * tilts[k] / total *
+                            turnedCosine(k == 63 ? 1 : (static_cast<double>(k) + 0.5) / 64, z);
     }
-    double sum = 0;
-    for (const double share : share_) sum += share;
-    for (double& share : share_) share /= sum;
+    normalise(out);
+    return out;
 }
 
-double DirectionDensity::at(double z) const {
-    const int bin = std::min(kBins - 1, static_cast<int>((z + 1) / 2 * kBins));
-    return share_[bin] * kBins / (4 * kPi);  // a bin of z is 4π/bins of the sphere
-}
-
-double DirectionDensity::sampleZ(double uniform) const {
+/// The part of that lobe that hits: for a few azimuths, of each texel the directions above its normal's plane and below
+/// its horizon. False when nothing hits.
+bool hitShares(const HeightMap& map, const Image& slopes, unsigned threads, Shares& out) {
+    constexpr int kAzimuths = 4;
+    std::vector<double> up(kBins + 2, 0), along(kBins + 2, 0);  // changes from bin to bin of Σ n.z, Σ n·azimuth
+    for (int a = 0; a < kAzimuths; ++a) {
+        const double azimuth = 2 * kPi * (a + 0.3) / kAzimuths, c = std::cos(azimuth), s = std::sin(azimuth);
+        const std::vector<float> horizon = horizonSlopes(map, azimuth, threads);
+        for (std::size_t i = 0; i < horizon.size(); ++i) {
+            if (std::isnan(map.heights.data()[i])) continue;
+            const double sx = slopes.data()[2 * i], sy = slopes.data()[2 * i + 1];
+            const double rise = sx * c + sy * s, z = 1 / std::sqrt(1 + sx * sx + sy * sy), top = horizon[i];
+            if (top <= rise) continue;
+            const auto change = [&](double slope, double sign) {
+                const double place = placeOf(slope / std::sqrt(1 + slope * slope));
+                const auto bin = static_cast<std::size_t>(place);
+                const double later = place - static_cast<double>(bin);
+                up[bin] += sign * z * (1 - later), up[bin + 1] += sign * z * later;
+                along[bin] -= sign * z * rise * (1 - later), along[bin + 1] -= sign * z * rise * later;
+            };
+            change(rise, 1), change(top, -1);
+        }
+    }
+    double n = 0, m = 0;
     for (int bin = 0; bin < kBins; ++bin) {
-        if (uniform < share_[bin] && share_[bin] > 0) return (bin + uniform / share_[bin]) * 2 / kBins - 1;
-        uniform -= share_[bin];
+        n += up[bin], m += along[bin];
+        const double low = binEdge(bin), high = binEdge(bin + 1), z = (low + high) / 2;
+        out[bin] = (high - low) * std::max(0.0, n * z + m * std::sqrt(1 - z * z));
     }
-    for (int bin = kBins - 1; bin > 0; --bin)
-        if (share_[bin] > 0) return (bin + 1) * 2.0 / kBins - 1;
-    return 1;
+    return normalise(out);
 }
+
+/// Density of directions by their z: half as Lambert's cosine weighs them, half as it weighs those that hit. On a
+/// shallow relief these are few and all near the plane: the cosine alone would leave what is seen there to a handful.
+class DirectionDensity {
+public:
+    DirectionDensity(const HeightMap& map, unsigned threads) {
+        const Image slopes = surfaceSlopes(map, threads);
+        share_ = cosineShares(map, slopes);
+        Shares hits{};
+        if (!hitShares(map, slopes, threads, hits)) return;
+        for (int bin = 0; bin < kBins; ++bin) share_[bin] += kHitting * (hits[bin] - share_[bin]);
+    }
+    double at(double z) const {
+        const int bin = std::min(kBins - 1, static_cast<int>(placeOf(z)));
+        return share_[bin] / (2 * kPi * (binEdge(bin + 1) - binEdge(bin)));
+    }
+    /// Inverse of the cumulated density: uniform in [0, 1) to z.
+    double sampleZ(double uniform) const {
+        for (int bin = 0; bin < kBins; ++bin) {
+            if (uniform < share_[bin] && share_[bin] > 0)
+                return binEdge(bin) + uniform / share_[bin] * (binEdge(bin + 1) - binEdge(bin));
+            uniform -= share_[bin];
+        }
+        for (int bin = kBins - 1; bin > 0; --bin)
+            if (share_[bin] > 0) return binEdge(bin + 1);
+        return 1;
+    }
+
+private:
+    static constexpr double kHitting = 0.5;
+    Shares share_{};
+};
 
 }  // namespace
 
@@ -111,7 +165,7 @@ ScatterMap makeScatterMap(const HeightMap& map, const ScatterOptions& options) {
     validateHeightMap(map);
     require(options.directions >= 1,
             fmt::format("makeScatterMap: expected 1 direction or more, found {}", options.directions));
-    const DirectionDensity density(map);
+    const DirectionDensity density(map, options.threads);
     ScatterMap out;
     const int count = options.directions;
     for (int i = 0; i < count; ++i) {

@@ -28,9 +28,10 @@ struct ScatterOptions {
     unsigned threads = 0;  ///< same bits for any
 };
 
-/// Directions are stratified, with the density of the cosine about the texels' own normals, averaged over the relief:
-/// of a flat one the cosine about z, of a steep one some look down.
-/// \throws std::invalid_argument for a bad map or option
+/// Directions are stratified, half with the density of the cosine about the texels' own normals, averaged over the
+/// relief (of a flat one the cosine about z, of a steep one some look down), half with the part of it that hits the
+/// relief, by the horizons of four azimuths: a shallow relief is seen only near its plane. \throws
+/// std::invalid_argument for a bad map or option
 ScatterMap makeScatterMap(const HeightMap& map, const ScatterOptions& options = {});
 
 /// The point seen [texels] from texel (x, y)'s centre; not wrapped. Only where the distance is ≥ 0.

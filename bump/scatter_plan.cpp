@@ -2,11 +2,17 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <numeric>
+
+#include "bump/normals.hpp"
 #include "core/error.hpp"
 #include "core/parallel.hpp"
 
 namespace nacre {
 namespace {
+
+constexpr double kDeeper = 1.0 / 3;  // of the steps, for all bounces but the viewed one
 
 /// Change of height from the first to the second; 0 when either is no height.
 double rise(float from, float to) { return std::isnan(from) || std::isnan(to) ? 0 : static_cast<double>(to) - from; }
@@ -15,97 +21,123 @@ bool fits(const Image& image, const HeightMap& map) {
     return image.width() == map.width() && image.height() == map.height();
 }
 
-/// The direction of `candidates` nearest to d; with `used`, of those not used yet.
-std::size_t nearest(const ScatterMap& scatter, const std::vector<int>& candidates, const Vec3& d,
-                    const std::vector<bool>* used = nullptr) {
-    std::size_t best = candidates.size();
-    double most = -2;
-    for (std::size_t j = 0; j < candidates.size(); ++j) {
-        const double cosine = glm::dot(d, scatter.directions[static_cast<std::size_t>(candidates[j])]);
-        if (cosine > most && !(used && (*used)[j])) most = cosine, best = j;
-    }
-    return best;
-}
-
-/// `count` of `candidates` (sorted by z), those nearest to a spiral of the golden angle whose steps in z bring the same
-/// light each. \param brings  light of each direction of the map
-std::vector<int> choose(const ScatterMap& scatter, const std::vector<int>& candidates,
-                        const std::vector<double>& brings, std::size_t count, double turn) {
-    if (count >= candidates.size()) return candidates;
-    double total = 0;
-    for (const int k : candidates) total += brings[static_cast<std::size_t>(k)];
-    std::vector<int> out;
-    std::vector<bool> used(candidates.size(), false);
-    std::size_t at = 0;
-    double before = 0;  // of `at`
-    for (std::size_t p = 0; p < count; ++p) {
-        const double share = (static_cast<double>(p) + 0.5) / static_cast<double>(count) * total;
-        while (at + 1 < candidates.size() && before + brings[static_cast<std::size_t>(candidates[at])] <= share)
-            before += brings[static_cast<std::size_t>(candidates[at++])];
-        const double z = scatter.directions[static_cast<std::size_t>(candidates[at])].z;
-        const double across = std::sqrt(std::max(0.0, 1 - z * z));
-        const double azimuth = 2 * kPi * (static_cast<double>(p) * (std::sqrt(5.0) - 1) / 2 + turn);
-        const std::size_t j =
-            nearest(scatter, candidates, {across * std::cos(azimuth), across * std::sin(azimuth), z}, &used);
-        used[j] = true;
-        out.push_back(candidates[j]);
-    }
-    return out;
-}
-
-ScatterBounce makeBounce(const ScatterMap& scatter, const std::vector<int>& candidates,
-                         const std::vector<double>& brings, std::size_t count, double turn) {
-    ScatterBounce out;
-    out.directions = choose(scatter, candidates, brings, count, turn);
-    out.weights.assign(out.directions.size(), 0);
-    for (const int k : candidates) {
-        const auto d = static_cast<std::size_t>(k);
-        out.weights[nearest(scatter, out.directions, scatter.directions[d])] += scatter.weights[d];
-    }
-    return out;
-}
-
-/// Sets plan.hits. \return of each direction: Lambert's weights of all texels that hit there
-std::vector<double> measureHits(const HeightMap& map, const ScatterMap& scatter, unsigned threads, ScatterPlan& plan) {
-    const auto count = static_cast<std::size_t>(scatter.count());
-    std::vector<std::vector<double>> rows(static_cast<std::size_t>(map.height()), std::vector<double>(count, 0));
-    parallelFor(rows.size(), threads, [&](std::size_t row) {
-        const int y = static_cast<int>(row);
-        for (int x = 0; x < map.width(); ++x) {
-            if (std::isnan(map.heights.at(x, y, 0))) continue;
-            double all = 0, hit = 0;
-            for (std::size_t k = 0; k < count; ++k) {
-                const double w = lambertWeight(plan.normals.rgb(x, y), scatter.directions[k], scatter.weights[k]);
-                all += w;
-                if (scatter.distance[k].at(x, y, 0) < 0) continue;
-                hit += w;
-                rows[row][k] += w;
-            }
-            plan.hits.at(x, y, 0) = static_cast<float>(all > 0 ? hit / all : 0);
+/// Place of a cell on Hilbert's curve through 2^kLevels × 2^kLevels cells: neighbours on the curve are neighbours.
+std::uint32_t hilbertPlace(std::uint32_t x, std::uint32_t y) {
+    constexpr int kLevels = 10;
+    std::uint32_t out = 0;
+    for (std::uint32_t half = 1u << (kLevels - 1); half > 0; half /= 2) {
+        const std::uint32_t right = (x & half) > 0, up = (y & half) > 0;
+        out += half * half * ((3 * right) ^ up);
+        if (!up) {
+            if (right) x = ~x, y = ~y;
+            std::swap(x, y);
         }
-    });
-    std::vector<double> out(count, 0);
-    for (const std::vector<double>& row : rows)
-        for (std::size_t k = 0; k < count; ++k) out[k] += row[k];
+    }
     return out;
+}
+
+/// The map's directions along a curve through azimuth and rank in z: every n-th one is a stratified choice.
+std::vector<int> alongCurve(const ScatterMap& scatter) {
+    const auto count = static_cast<std::size_t>(scatter.count());
+    std::vector<int> byZ(count);
+    std::iota(byZ.begin(), byZ.end(), 0);
+    std::stable_sort(byZ.begin(), byZ.end(), [&](int a, int b) {
+        return scatter.directions[static_cast<std::size_t>(a)].z < scatter.directions[static_cast<std::size_t>(b)].z;
+    });
+    std::vector<std::pair<std::uint32_t, int>> places;
+    for (std::size_t rank = 0; rank < count; ++rank) {
+        const Vec3& d = scatter.directions[static_cast<std::size_t>(byZ[rank])];
+        const double turn = std::atan2(d.y, d.x) / (2 * kPi) + 0.5;
+        places.emplace_back(hilbertPlace(static_cast<std::uint32_t>(std::min(1023.0, turn * 1024)),
+                                         static_cast<std::uint32_t>(rank * 1024 / count)),
+                            byZ[rank]);
+    }
+    std::sort(places.begin(), places.end());
+    std::vector<int> out;
+    for (const auto& [place, k] : places) out.push_back(k);
+    return out;
+}
+
+/// In [0, 1), another one for each: R2 of the texel, so that neighbours differ most.
+double phaseOf(int x, int y, int turn) {
+    const double phase = 0.7548776662466927 * x + 0.5698402909980532 * y + 0.3819660112501051 * turn;
+    return phase - std::floor(phase);
+}
+
+/// What all texels share, in the order of the curve.
+struct Curve {
+    explicit Curve(const ScatterMap& scatter) {
+        for (const int k : alongCurve(scatter)) {
+            const Vec3& d = scatter.directions[static_cast<std::size_t>(k)];
+            directions.emplace_back(d);
+            weights.push_back(static_cast<float>(scatter.weights[static_cast<std::size_t>(k)]));
+            along.emplace_back(seenPoint(0, 0, d, 1) - Vec2(0.5));
+            patch.push_back((d.x > 0 ? 1 : 0) + (d.y > 0 ? 2 : 0));
+            distances.push_back(scatter.distance[static_cast<std::size_t>(k)].data().data());
+        }
+    }
+    std::vector<glm::vec3> directions;
+    std::vector<float> weights;
+    std::vector<glm::vec2> along;
+    std::vector<int> patch;
+    std::vector<const float*> distances;
+};
+
+/// A texel's distances in the order of the curve, and room for its weights.
+struct Sight {
+    std::vector<float> distances, weights;
+};
+
+/// Texel i's part of SeenPoints.
+void seeFrom(const Curve& curve, Sight& sight, const glm::vec3& normal, double phase, std::size_t i, SeenPoints& out) {
+    const std::size_t count = curve.weights.size();
+    double all = 0, away = 0;
+    std::array<double, 4> own{};
+    for (std::size_t j = 0; j < count; ++j) {
+        const float w = curve.weights[j] * std::max(0.0f, glm::dot(normal, curve.directions[j]));
+        const float distance = sight.distances[j];
+        all += w;
+        sight.weights[j] = distance > 0 ? w : 0;
+        away += sight.weights[j];
+        if (distance == 0) own[static_cast<std::size_t>(curve.patch[j])] += w;
+    }
+    if (all <= 0) return;
+    out.share[i] = static_cast<float>(away / all);
+    for (int q = 0; q < 4; ++q) out.own[i][q] = static_cast<float>(own[static_cast<std::size_t>(q)] / all);
+    if (away <= 0) return;
+    // Equal steps of the summed weights: as many points of a direction as its weight has steps.
+    std::uint32_t* to = out.offsets.data() + i * static_cast<std::size_t>(out.count);
+    const double step = away / out.count;
+    double before = 0;
+    int n = 0;
+    for (std::size_t j = 0; j < count && n < out.count; ++j) {
+        before += sight.weights[j];
+        if ((n + phase) * step >= before) continue;
+        const std::uint32_t offset = glm::packHalf2x16(curve.along[j] * sight.distances[j]);
+        while (n < out.count && (n + phase) * step < before) to[n++] = offset;
+    }
+    for (; n < out.count; ++n) to[n] = to[n - 1];  // rounding
+}
+
+SeenPoints noPoints(int count, std::size_t texels) {
+    return {count, std::vector<std::uint32_t>(static_cast<std::size_t>(count) * texels, 0),
+            std::vector<float>(texels, 0), std::vector<glm::vec4>(texels, glm::vec4(0))};
 }
 
 }  // namespace
-
-Vec3 reliefNormal(const HeightMap& map, int x, int y) {
-    const float own = map.at(x, y);
-    const auto slope = [own](float before, float after) {
-        const double sides = std::isnan(before) || std::isnan(after) ? 1 : 2;
-        return (rise(before, own) + rise(own, after)) / sides;
-    };
-    return glm::normalize(
-        Vec3(-slope(map.at(x - 1, y), map.at(x + 1, y)), -slope(map.at(x, y - 1), map.at(x, y + 1)), 1));
-}
 
 glm::vec4 ownSlopes(const HeightMap& map, int x, int y) {
     const float own = map.at(x, y);
     return glm::vec4(rise(map.at(x - 1, y), own), rise(own, map.at(x + 1, y)), rise(map.at(x, y - 1), own),
                      rise(own, map.at(x, y + 1)));
+}
+
+HeightMap reliefPeriod(const HeightMap& map) {
+    if (map.wrap != Wrap::Mirror) return map;
+    HeightMap out{Image(2 * map.width(), 2 * map.height(), 1), Wrap::Repeat};
+    for (int y = 0; y < out.height(); ++y)
+        for (int x = 0; x < out.width(); ++x) out.heights.at(x, y, 0) = map.at(x, y);
+    return out;
 }
 
 HeightMap refinedRelief(const HeightMap& map, int k) {
@@ -149,26 +181,41 @@ ScatterPlan planScatter(const HeightMap& map, const ScatterMap& scatter, const S
                         options.paths));
     require(options.normals.empty() || (fits(options.normals, map) && options.normals.channels() >= 3),
             "planScatter: expected normals as an RGB image of the relief's size");
-    ScatterPlan out{options.normals, Image(map.width(), map.height(), 1), {}};
+    ScatterPlan out{options.normals, {}, {}};
     if (out.normals.empty()) {
-        out.normals = Image(map.width(), map.height(), 3);
-        for (int y = 0; y < map.height(); ++y)
-            for (int x = 0; x < map.width(); ++x) out.normals.setRgb(x, y, reliefNormal(map, x, y));
+        out.normals = makeNormals(map, {.levels = false, .threads = options.threads}).levels[0];
     }
-    const std::vector<double> brings = measureHits(map, scatter, options.threads, out);
-    std::vector<int> candidates;
-    for (int k = 0; k < scatter.count(); ++k)
-        if (brings[static_cast<std::size_t>(k)] > 0) candidates.push_back(k);
-    std::stable_sort(candidates.begin(), candidates.end(), [&](int a, int b) {
-        return scatter.directions[static_cast<std::size_t>(a)].z < scatter.directions[static_cast<std::size_t>(b)].z;
+    if (options.bounces == 0) return out;
+    const int steps = options.paths * options.bounces, deeper = options.bounces - 1;
+    const int patchPoints = deeper > 0 ? std::max(1, static_cast<int>(steps * kDeeper / (4 * deeper))) : 0;
+    const std::size_t texels = map.heights.texelCount();
+    out.viewed = noPoints(std::max(1, steps - 4 * deeper * patchPoints), texels);
+    for (SeenPoints& points : out.patches) points = noPoints(patchPoints, deeper > 0 ? texels : 0);
+    const Curve curve(scatter);
+    parallelFor(static_cast<std::size_t>(map.height()), options.threads, [&](std::size_t row) {
+        const int y = static_cast<int>(row);
+        const std::size_t directions = curve.weights.size();
+        Sight sight{std::vector<float>(directions), std::vector<float>(directions)};
+        for (int x = 0; x < map.width(); ++x) {
+            if (std::isnan(map.heights.at(x, y, 0))) continue;
+            const std::size_t i = row * static_cast<std::size_t>(map.width()) + static_cast<std::size_t>(x);
+            for (std::size_t j = 0; j < directions; ++j) sight.distances[j] = curve.distances[j][i];
+            seeFrom(curve, sight, out.normals.rgb(x, y), phaseOf(x, y, 0), i, out.viewed);
+            const std::array<Vec3, 4> normals = ownNormals(ownSlopes(map, x, y));
+            for (std::size_t q = 0; q < 4 && deeper > 0; ++q) {
+                seeFrom(curve, sight, normals[q], phaseOf(x, y, static_cast<int>(q) + 1), i, out.patches[q]);
+                out.patches[q].share[i] += out.patches[q].own[i][static_cast<int>(q)];  // rounding
+                out.patches[q].own[i][static_cast<int>(q)] = 0;
+            }
+        }
     });
-    constexpr double kTurn = 0.38;  // of a turn between bounces, about the golden angle
-    const double steps = static_cast<double>(options.paths) * options.bounces;
-    for (int b = 0; b < options.bounces; ++b) {
-        const double share = std::exp2(-b) / (2 - std::exp2(1 - options.bounces));
-        const auto count = static_cast<std::size_t>(std::max<long>(1, std::lround(steps * share)));
-        out.bounces.push_back(makeBounce(scatter, candidates, brings, count, kTurn * b));
-    }
+    return out;
+}
+
+std::array<Vec3, 4> ownNormals(const glm::vec4& slopes) {
+    std::array<Vec3, 4> out;
+    for (int q = 0; q < 4; ++q)
+        out[static_cast<std::size_t>(q)] = glm::normalize(Vec3(-slopes[q % 2], -slopes[2 + q / 2], 1));
     return out;
 }
 

@@ -2,17 +2,21 @@
 // (scattered_light.hpp) and the GPU (shading/gpu_relief_light.hpp) follow the same plan.
 #pragma once
 
+#include <array>
+#include <cstdint>
+#include <glm/packing.hpp>
 #include <vector>
 
 #include "bump/scatter_map.hpp"
 
 namespace nacre {
 
-/// Unit normal of texel (x, y) by central differences; beside a hole one-sided, between two 0 (a hole's own: +z).
-Vec3 reliefNormal(const HeightMap& map, int x, int y);
-
 /// The four patches that meet at a texel's centre have these slopes there: towards −x, +x, −y, +y; 0 beside a hole.
 glm::vec4 ownSlopes(const HeightMap& map, int x, int y);
+
+/// One period of the surface: the map, or of a mirrored one the four tiles that repeat, the map's own first. In the
+/// others the relief is turned over and the light is not: so they have light of their own.
+HeightMap reliefPeriod(const HeightMap& map);
 
 /// The same surface with k × k texels for each one, in their edges. k odd: the old texels' centres stay some's.
 /// \throws std::invalid_argument for a bad map, k even or below 1
@@ -23,30 +27,38 @@ HeightMap refinedRelief(const HeightMap& map, int k);
 /// \param light  unit, towards the light. \throws std::invalid_argument as rayDistances
 Image litMask(const HeightMap& map, const Vec3& light, unsigned threads = 0);
 
-struct ScatterBounce {
-    std::vector<int> directions;  ///< of the scatter map
-    std::vector<double> weights;  ///< [sr]: of all the map's directions that any texel hits, those nearest to each
+/// Points of the relief that are seen from the texels about one normal each: drawn from all directions of the map that
+/// hit, as Lambert's cosine weighs them. Light that comes = share · mean of the points' + Σ own[q] · that of patch q.
+struct SeenPoints {
+    int count = 0;                       ///< N of each texel
+    std::vector<std::uint32_t> offsets;  ///< (x, y) [texels] from texel i's centre as halves: N from element N · i on
+    std::vector<float> share;            ///< of the cosine that hits away from the own patches, for each texel
+    std::vector<glm::vec4> own;  ///< of the cosine that own patches hide: towards −x −y, +x −y, −x +y, +x +y
+    glm::vec2 offset(std::size_t i, int n) const {
+        return glm::unpackHalf2x16(offsets[i * static_cast<std::size_t>(count) + static_cast<std::size_t>(n)]);
+    }
 };
 
 struct ScatterPlan {
-    Image normals;                       ///< RGB
-    Image hits;                          ///< one channel: share of Lambert's cosine that hits, by all directions
-    std::vector<ScatterBounce> bounces;  ///< the one at the viewer's end first
+    Image normals;                      ///< RGB
+    SeenPoints viewed;                  ///< about these normals: the bounce at the viewer's end
+    std::array<SeenPoints, 4> patches;  ///< about the normals of the own patches, q as in `own`: all other bounces
 };
 
 struct ScatterPlanOptions {
     int bounces = 3;       ///< B ≥ 0
     int paths = 100;       ///< P ≥ 1
-    Image normals = {};    ///< of the relief's size, unit; empty: reliefNormal
+    Image normals = {};    ///< of the relief's size, unit; empty: those of surfaceSlopes
     unsigned threads = 0;  ///< same bits for any
 };
 
-/// Directions for Lambert's paths that meet. P·B steps are shared by the bounces in halves, as each bounce is averaged
-/// by those before: of 100 paths with 3 bounces, 171, 86 and 43. A bounce's directions are chosen among the map's
-/// evenly in proportion to the light that they could bring (the cosine of all texels that hit something there), so that
-/// none is spent on the sky; never more than all. \throws std::invalid_argument for a bad map, option, or a scatter map
-/// of another size
+/// Points for Lambert's paths that meet: P·B steps (lookups a texel). Errors of the bounce that is viewed are seen as
+/// they are, of those before the mean of many: so each of these has few steps, 4 n with n points for each of the four
+/// patches. \throws std::invalid_argument for a bad map, option, or a scatter map of another size
 ScatterPlan planScatter(const HeightMap& map, const ScatterMap& scatter, const ScatterPlanOptions& options = {});
+
+/// Unit normals of the patches of ownSlopes: towards −x −y, +x −y, −x +y, +x +y.
+std::array<Vec3, 4> ownNormals(const glm::vec4& slopes);
 
 /// Directions of paths that are alone: element p·depth + b is the index of path p's segment b, 0 being the one at the
 /// viewer's end. Segment 0 goes through all directions evenly; the others by the additive recurrence R_{depth − 1}, so

@@ -15,7 +15,7 @@ struct ScatteredLightOptions {
     std::function<Rgb(const Vec3& direction)> sky = {};  ///< radiance that comes from there; none: black
     Rgb albedo{0.7};
     Image albedoMap = {};  ///< RGB factor of `albedo`, of the relief's size; empty: 1
-    Image normals = {};    ///< of the relief's size, unit; empty: reliefNormal
+    Image normals = {};    ///< of the relief's size, unit; empty: those of surfaceSlopes
     /// f(wi, wo)/albedo [1/sr] in the frame of the texel's normal, x along the relief's x; none: Lambert's 1/π.
     std::function<Rgb(const Vec3& wi, const Vec3& wo)> brdf = {};
     Vec3 viewer{0, 0, 1};  ///< unit, towards the viewer; Lambert's light is the same for all
@@ -25,7 +25,8 @@ struct ScatteredLightOptions {
     /// in all directions (planScatter); false: each path is alone, as in equation 10 and for any other BRDF
     /// (scatterPaths). Both are P·B steps.
     bool pathsMeet = true;
-    int detail = 3;  ///< k odd, ≥ 1, where paths meet: direct light that is passed on has k × k samples a texel
+    int detail =
+        3;  ///< k odd, ≥ 1, where paths meet: light that is passed on has (k + 1)² samples a patch (PatchSamples)
     unsigned threads = 0;  ///< same bits for any
 };
 
@@ -41,12 +42,18 @@ struct ScatteredLight {
 /// L_b(x) = L_d(x) + Σ w f ⟨n, d⟩ L_{b+1}(S_d(x)) (HSE equation 10, figure 11), the deepest texture first; seen points
 /// are read with the bilinear filter, continued as the relief.
 ///
-/// Where Lambert's paths meet, the weights of the directions that hit are scaled for each texel so that their sum is
-/// the share of the cosine that hits, by all of the map's directions; what misses has been added up before. So no light
-/// is made or lost, whatever the directions. Otherwise Lambert's weights sum to 1 over the paths, any BRDF's are the
-/// map's. What a ray below the own patch sees is that patch, with its slope at the texel's centre. \throws
-/// std::invalid_argument for a bad map, option, or a scatter map of another size Cost: texels × (P·B + M); direct light
-/// has rays for k² times the texels.
+/// Where Lambert's paths meet, points seen are drawn for each texel out of all directions that hit (SeenPoints), and
+/// what misses is summed over all of the map's directions: so no light is made or lost. What leaves a patch towards
+/// other texels leaves about the patch's own normal, as the surface does; the texels' smoother normals are for the
+/// viewer alone. What a ray below the own patch sees is that patch at the texel's centre. Otherwise Lambert's weights
+/// sum to 1 over the paths, any BRDF's are the map's.
+///
+/// Beyond the borders: repeated, all repeats. Clamped, the relief goes on at its border's height, and what is seen
+/// there has the light of the border, about the normal with which it goes on; only shadows there are those at the
+/// border. Mirrored, the tiles are turned over and the light is not: where paths meet, each of the four has its own
+/// light; paths that are alone read the relief's, a bias. \throws std::invalid_argument for a bad map, option, or a
+/// scatter map of another size Cost: texels × (P·B + M), mirrored up to twice that; the plan 5 M a texel, direct light
+/// rays for k² times the texels.
 ScatteredLight scatterLight(const HeightMap& map, const ScatterMap& scatter, const ScatteredLightOptions& options = {});
 
 }  // namespace nacre

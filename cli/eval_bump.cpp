@@ -56,16 +56,7 @@ struct Evaluator {
 /// The heights as the asset says they were read.
 HeightOptions optionsOf(const Asset& asset, const std::string& file, Wrap wrap) {
     try {
-        const nlohmann::json& input = asset.meta.at("input");
-        HeightOptions options;
-        options.scale = input.at("scale").get<double>();
-        options.texelSize = input.at("texel_size").get<double>();
-        options.wrap = wrap;
-        if (const nlohmann::json& nodata = input.at("nodata"); !nodata.is_null())
-            options.nodata = nodata.is_string() ? NAN : nodata.get<double>();
-        options.channel = input.at("channel").get<std::string>();
-        if (options.channel == "r=g=b") options.channel = "auto";
-        return options;
+        return heightOptionsFrom(asset.meta.at("input"), wrap);
     } catch (const nlohmann::json::exception& error) {
         throw Error(fmt::format("{}: expected 'input' with scale, texel_size, nodata and channel, found {}", file,
                                 error.what()));

@@ -340,4 +340,14 @@ nlohmann::json toJson(const SourceReport& r) {
     return out;
 }
 
+SourceOptions sourceOptionsFrom(const nlohmann::json& report) {
+    SourceOptions options;
+    options.layout = sourceLayoutFromString(report.at("layout").get<std::string>());
+    options.faces = report.value("faces", options.faces);
+    options.negative = negativePolicyFromString(report.at("negative_rule").get<std::string>());
+    options.flip = report.at("flip").get<std::string>();
+    options.yaw = report.at("yaw_deg").get<double>() * kPi / 180;
+    return options;
+}
+
 }  // namespace nacre

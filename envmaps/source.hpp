@@ -63,6 +63,8 @@ struct SourceReport {
     NegativePolicy negative = NegativePolicy::Clamp;
 };
 nlohmann::json toJson(const SourceReport& report);
+/// How a file was read, from what toJson wrote of it. \throws nlohmann::json::exception when something is missing
+SourceOptions sourceOptionsFrom(const nlohmann::json& report);
 
 struct Environment {
     EnvMap map;  ///< in the file's layout (cubes as OpenEXR's strip, probes as a cube), oriented as CONVENTIONS.md says

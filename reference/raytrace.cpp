@@ -13,40 +13,6 @@ namespace nacre {
 
 namespace {
 
-struct Surface {
-    Vec3 position, normal, tangent, bitangent;
-    Vec2 uv{0};
-};
-
-template <typename T>
-T interpolate(const std::vector<T>& values, const glm::uvec3& triangle, const Vec3& weight) {
-    return T(static_cast<float>(weight.x)) * values[triangle.x] + T(static_cast<float>(weight.y)) * values[triangle.y] +
-           T(static_cast<float>(weight.z)) * values[triangle.z];
-}
-
-Vec3 anyPerpendicular(const Vec3& n) {
-    return glm::normalize(glm::cross(n, std::abs(n.x) < 0.5 ? Vec3(1, 0, 0) : Vec3(0, 1, 0)));
-}
-
-Surface surfaceAt(const Mesh& mesh, const RayHit& hit) {
-    const glm::uvec3& triangle = mesh.triangles[hit.triangle];
-    const Vec3 weight(1 - hit.u - hit.v, hit.u, hit.v);
-    const glm::vec4 tangent = interpolate(mesh.tangents, triangle, weight);
-    Surface s;
-    s.position = Vec3(interpolate(mesh.positions, triangle, weight));
-    s.normal = glm::normalize(Vec3(interpolate(mesh.normals, triangle, weight)));
-    const Vec3 across = Vec3(tangent) - glm::dot(Vec3(tangent), s.normal) * s.normal;
-    // Interpolated tangents may cancel or meet the normal: any tangent then, as good as none.
-    s.tangent = glm::length(across) > 1e-9 ? glm::normalize(across) : anyPerpendicular(s.normal);
-    s.bitangent = (tangent.w < 0 ? -1.0 : 1.0) * glm::cross(s.normal, s.tangent);
-    if (mesh.uvs.size() == mesh.positions.size()) s.uv = Vec2(interpolate(mesh.uvs, triangle, weight));
-    return s;
-}
-
-Vec3 toLocal(const Surface& s, const Vec3& v) {
-    return {glm::dot(s.tangent, v), glm::dot(s.bitangent, v), glm::dot(s.normal, v)};
-}
-
 class Renderer {
 public:
     Renderer(const Mesh& mesh, const Camera& camera, const std::vector<Light>& lights, const BrdfFunction& brdf,
@@ -66,15 +32,15 @@ public:
             const Ray ray = rays_.at(x, y, i);
             const RayHit hit = scene_.firstHit(ray);
             hits += hit.found;
-            sum += hit.found ? radiance(surfaceAt(mesh_, hit), -glm::normalize(ray.direction)) : options_.background;
+            sum += hit.found ? radiance(surfaceAt(mesh_, hit, -glm::normalize(ray.direction))) : options_.background;
         }
         out.radiance.setRgb(x, y, sum / static_cast<double>(n * n));
         out.coverage.at(x, y, 0) = static_cast<float>(hits) / static_cast<float>(n * n);
     }
 
 private:
-    Rgb radiance(const Surface& s, const Vec3& toEye) const {
-        const Vec3 wo = toLocal(s, toEye);
+    Rgb radiance(const SurfacePoint& s) const {
+        const Vec3 wo = toLocal(s, s.toEye);
         Rgb sum(0);
         if (!(wo.z > 0)) return sum;
         for (const Light& light : lights_) {
@@ -87,7 +53,7 @@ private:
         }
         return sum;
     }
-    bool occluded(const Surface& s, const Light& light, const Vec3& offset) const {
+    bool occluded(const SurfacePoint& s, const Light& light, const Vec3& offset) const {
         const double skip = 1e-4 * scene_.size();  // past the triangle itself: positions are single precision
         const double length = glm::length(offset);
         const double end = light.directional ? std::numeric_limits<float>::max() : length - skip;
@@ -144,8 +110,7 @@ TracedSurface traceSurface(const Mesh& mesh, const Camera& camera, const Raytrac
                 out.directions[at] = glm::normalize(ray.direction);
                 const RayHit hit = scene.firstHit(ray);
                 if (!hit.found) continue;
-                const Surface s = surfaceAt(mesh, hit);
-                out.points[at] = {s.position, s.normal, s.tangent, s.bitangent, -out.directions[at], s.uv};
+                out.points[at] = surfaceAt(mesh, hit, -out.directions[at]);
             }
     });
     return out;

@@ -6,6 +6,7 @@
 #include "core/image.hpp"
 #include "core/scene.hpp"
 #include "factorize/reflectance.hpp"
+#include "reference/surface_point.hpp"
 
 namespace nacre {
 
@@ -15,13 +16,6 @@ struct RaytraceOptions {
     bool shadows = false;           ///< false: local illumination, as the rasteriser's
     Rgb background{0};              ///< radiance where no triangle is hit
     unsigned threads = 0;           ///< 0 = all cores, same bits for any
-};
-
-/// A point that a ray hit; all unit and as `raytrace` has them.
-struct SurfacePoint {
-    Vec3 position, normal, tangent, bitangent;
-    Vec3 toEye;
-    Vec2 uv{0};  ///< (0, 0) where the mesh has none
 };
 
 /// The rays of a picture: sample k of pixel (x, y) is element (y · width + x) · n² + k, row by row within the pixel.

@@ -89,13 +89,16 @@ TexelLight lightOf(const Scene& scene, const HeightMap& map, const glm::ivec2& t
 }  // namespace
 
 Vec3 texelNormal(const HeightMap& map, int x, int y) {
-    const double own = map.at(x, y);
-    const auto slope = [own](double before, double after) {
-        if (std::isnan(before) && std::isnan(after)) return 0.0;
-        return std::isnan(before) ? after - own : std::isnan(after) ? own - before : (after - before) / 2;
-    };
-    return glm::normalize(
-        Vec3(-slope(map.at(x - 1, y), map.at(x + 1, y)), -slope(map.at(x, y - 1), map.at(x, y + 1)), 1));
+    Vec2 sum(0);
+    double patches = 0;
+    for (const Vec2 side : {Vec2(-1, -1), Vec2(1, -1), Vec2(-1, 1), Vec2(1, 1)}) {
+        const int i = x + static_cast<int>(side.x), j = y + static_cast<int>(side.y);
+        const double own = map.at(x, y), besideX = map.at(i, y), besideY = map.at(x, j), across = map.at(i, j);
+        if (std::isnan(own + besideX + besideY + across)) continue;
+        sum += side * Vec2(besideX - own, besideY - own);
+        ++patches;
+    }
+    return glm::normalize(Vec3(patches > 0 ? -sum / patches : Vec2(0), 1));
 }
 
 std::function<Rgb(const Vec2& p)> bilinearAlbedo(const Image& image, Wrap wrap) {

@@ -10,8 +10,8 @@
 
 namespace nacre {
 
-/// Unit normal of texel (x, y) by central differences of the heights: what a normal map stores there. Beside a hole
-/// the difference is one-sided; between two, 0.
+/// Unit normal of texel (x, y) by the mean slope of the patches that meet there, four of them central differences: what
+/// a normal map stores. Patches with a hole don't count; of none, +z.
 Vec3 texelNormal(const HeightMap& map, int x, int y);
 
 /// Linear RGB at a point of the plane [texels], bilinear between texel centres, beyond the borders as the relief. An

@@ -53,7 +53,7 @@ bool isKnownExtension(const std::string& name) {
     return false;
 }
 
-json bareNode(const std::string& name) { return {{"name", name}}; }
+json bare(const std::string& name) { return {{"name", name}}; }
 
 }  // namespace
 
@@ -83,15 +83,15 @@ std::vector<std::uint8_t> geometryOf(const GltfFile& file) {
     const auto countOf = [&](const char* part) {
         return file.document.contains(part) && file.document[part].is_array() ? file.document[part].size() : 0;
     };
-    for (std::size_t i = 0; i < countOf("materials"); ++i) out["materials"].push_back(json::object());
+    for (std::size_t i = 0; i < countOf("materials"); ++i) out["materials"].push_back(bare("m" + std::to_string(i)));
     json roots = json::array();
     for (std::size_t i = 0; i < countOf("nodes"); ++i) {
         roots.push_back(out["nodes"].size());
-        out["nodes"].push_back(bareNode("n" + std::to_string(i)));
+        out["nodes"].push_back(bare("n" + std::to_string(i)));
     }
     for (std::size_t i = 0; i < countOf("meshes"); ++i) {
         roots.push_back(out["nodes"].size());
-        out["nodes"].push_back(bareNode("m" + std::to_string(i)));
+        out["nodes"].push_back(bare("m" + std::to_string(i)));
         out["nodes"].back()["mesh"] = i;
     }
     out["scenes"] = {{{"nodes", roots}}};

@@ -21,7 +21,8 @@ struct GltfFile {
 GltfFile readGltf(const std::filesystem::path& path);
 
 /// The file with its meshes each in a node of its own, "m0", "m1", …, and its nodes bare and side by side, "n0", "n1",
-/// …, for the key frames; no hierarchy, textures, skins or lights. \return bytes of the same container
+/// …, for the key frames; materials are names alone, "m0", "m1", …, because assimp counts them as they come. No
+/// hierarchy, textures, skins or lights. \return bytes of the same container
 std::vector<std::uint8_t> geometryOf(const GltfFile& file);
 
 }  // namespace nacre

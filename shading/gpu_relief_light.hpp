@@ -16,12 +16,12 @@ namespace nacre {
 struct GpuReliefLightOptions {
     Rgb albedo{0.7};
     Image albedoMap = {};  ///< RGB factor of `albedo`, of the relief's size; empty: 1
-    Image normals = {};    ///< of the relief's size, unit; empty: reliefNormal
+    Image normals = {};    ///< of the relief's size, unit; empty: those of surfaceSlopes
     /// f/albedo in the frame of the texel's normal, each path alone; none: Lambert, paths that meet. Outlives this.
     const GpuFactoredBrdf* brdf = nullptr;
     int bounces = 3;  ///< B ≥ 0
     int paths = 100;  ///< P ≥ 1
-    int detail = 3;   ///< samples of direct light that Lambert passes on: k × k a texel, k odd
+    int detail = 3;   ///< k odd: (k + 1)² samples a patch of the light that Lambert passes on
     ColorFormat color = ColorFormat::Rgba16F;
     unsigned threads = 0;  ///< of the baking on the CPU
 };
@@ -36,10 +36,11 @@ struct ReliefLamp {
     Vec3 viewer{0, 0, 1};                                ///< unit, for a BRDF
 };
 
-/// Needs rendering to 32-bit floats (ES 3: EXT_color_buffer_float). Half textures: distances, and with Rgba16F the
-/// radiance too. Row 0 of the textures is row 0 of the relief; they wrap as it does and filter linearly. Lambert costs
-/// ⌈P·B/16⌉ draws or so, a BRDF P (B + 1); where the light is seen is found by rays on the CPU, when the light changes
-/// its direction.
+/// Needs rendering to 32-bit floats (ES 3: EXT_color_buffer_float). Half textures: distances, points, and with Rgba16F
+/// the radiance too. Row 0 of the textures is row 0 of the relief; they wrap as it does and filter linearly. Lambert
+/// costs 2 B draws with P·B lookups a texel in all (a mirrored relief's four tiles: all but the viewed bounce four
+/// times), a sky one draw more for each 16 directions; a BRDF P (B + 1). Where the light is seen is found by rays on
+/// the CPU, when the light changes its direction.
 class GpuReliefLight {
 public:
     /// \param scatter  of this map
@@ -63,23 +64,26 @@ private:
     const Program& prepare(const char* step, const ReliefLamp& lamp) const;
     void draw(const TextureName& to, int width, int height) const;
     void setDirections(const Program& program, const ReliefLamp& lamp, std::span<const int> directions,
-                       std::span<const double> weights) const;
-    void sum(const Program& program, const ReliefLamp& lamp, std::span<const int> directions,
-             std::span<const double> weights, const TextureName& to);
+                       std::span<const double> weights, const Vec2& side = Vec2(1)) const;
+    void sumSky(const ReliefLamp& lamp, bool patches, const TextureName& to) const;
     void meet(const ReliefLamp& lamp);
     void follow(const ReliefLamp& lamp);
 
     ProgramLoader* loader_;
-    HeightMap fine_;
+    HeightMap period_;
     int width_, height_, detail_, bounces_, paths_;
+    int viewedPoints_ = 0, patchPoints_ = 0;  ///< of each texel, of each patch
     unsigned threads_;
     const GpuFactoredBrdf* brdf_;
     std::vector<Vec3> directions_;
     std::vector<double> weights_;
-    std::vector<ScatterBounce> plan_;
     std::optional<Vec3> litFor_;
-    TextureName distances_, normals_, albedo_, slopes_, fineNormals_, lit_, leaves_, sky_, radiance_[2], sums_[2],
-        scattered_, total_;
+    TextureName distances_, normals_, albedo_, slopes_, fineNormals_, lit_, leaves_, radiance_[2], sums_[2], scattered_,
+        total_;
+    struct Seen {
+        TextureName points, own, sky;
+    } viewed_, patch_;
+    TextureName passedOn_[2];
     FramebufferName framebuffer_;
     VertexArray empty_;
 };

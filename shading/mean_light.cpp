@@ -9,16 +9,6 @@
 namespace nacre {
 namespace {
 
-/// Irradiance of a facing surface times the cone.
-double strength(const Light& light, const Vec3& toLight, double distance2) {
-    double out = light.directional ? 1 : 1 / distance2;
-    if (!light.directional && light.cone) {
-        const double inner = std::cos(light.cone->inner), outer = std::cos(light.cone->outer);
-        out *= sqr(clamp01((-glm::dot(toLight, light.cone->axis) - outer) / (inner - outer)));
-    }
-    return out;
-}
-
 template <typename T>
 T blend(const std::vector<T>& values, const glm::uvec3& t, const Vec3& w) {
     return static_cast<float>(w.x) * values[t.x] + static_cast<float>(w.y) * values[t.y] +
@@ -48,11 +38,11 @@ Vec3 meanLightDirection(const Mesh& mesh, const glm::dmat4& toWorld, const Light
         const glm::uvec3& t = world.triangles[triangle];
         const Vec3 w(1 - u - v, u, v);
         const Mat3 frame = shadingFrame(Vec3(blend(world.normals, t, w)), Vec4(blend(world.tangents, t, w)));
-        const Vec3 away = light.directional ? light.position : light.position - Vec3(blend(world.positions, t, w));
-        const double distance2 = glm::dot(away, away);
-        if (!(distance2 > 0)) continue;
-        const Vec3 toLight = away / std::sqrt(distance2), local = toLight * frame;
-        if (local.z > 0) sum += local * (local.z * strength(light, toLight, distance2));
+        const Vec3 point(blend(world.positions, t, w));
+        const Vec3 away = light.directional ? light.position : light.position - point;
+        if (away == Vec3(0)) continue;
+        const Vec3 local = glm::normalize(away) * frame;
+        if (local.z > 0) sum += local * (local.z * lightFalloff(light, point));
     }
     return glm::length(sum) > 0 ? glm::normalize(sum) : Vec3(0, 0, 1);
 }

@@ -38,10 +38,11 @@ public:
     }
 
     ImportedScene read() {
-        root_.requireKeys(
-            {"nacre_scene", "assets", "meshes", "materials", "lights", "nodes", "camera", "sky", "animation"});
+        root_.requireKeys({"$schema", "nacre_scene", "assets", "meshes", "materials", "lights", "nodes", "camera",
+                           "sky", "animation"});
         if (const JsonField version = root_.at("nacre_scene"); version.integer(0, 1 << 30) != 1)
             version.fail(fmt::format("expected version 1, found {}", version.value().dump()));
+        if (const auto schema = root_.find("$schema")) schema->text();
         names_ = {namesOf("assets"), namesOf("meshes"), namesOf("materials"), namesOf("lights"), namesOf("nodes")};
         readAssets();
         for (const auto& [name, f] : section("meshes")) scene().meshes.push_back(sceneMesh(name, f, folder_));

@@ -140,8 +140,11 @@ public:
 private:
     /// The file's own, or the grey one.
     int materialOf(const aiMesh& mesh) {
-        const auto given = out_.scene.materials.size() - (grey_ >= 0 ? 1 : 0);
-        if (mesh.mMaterialIndex < given) return static_cast<int>(mesh.mMaterialIndex);
+        aiString name;
+        const std::size_t given = out_.scene.materials.size() - (grey_ >= 0 ? 1 : 0);
+        if (in_.mMaterials[mesh.mMaterialIndex]->Get(AI_MATKEY_NAME, name) == aiReturn_SUCCESS)
+            for (std::size_t i = 0; i < given; ++i)
+                if ("m" + std::to_string(i) == name.C_Str()) return static_cast<int>(i);
         if (grey_ < 0) {
             grey_ = static_cast<int>(given);
             out_.scene.materials.push_back(greyMaterial());

@@ -225,11 +225,12 @@ SceneProgram materialProgram(const SceneDescription& scene, const SceneMaterial&
                              const std::vector<AssetTraits>& assets, const SceneSwitches& switches,
                              const ShaderDefines& shadowDefines) {
     const bool lamps = takesLamps(scene, m, switches);
-    const int lights = static_cast<int>(scene.lights.size());
+    std::vector<Light> lights;
+    for (const SceneLight& light : scene.lights) lights.push_back(light.light);
     if (lamps && switches.reflectance == SceneReflectance::FastPhong) {
-        ShaderDefines defines = brdfDefines(scene, m, assets, switches.reflectance);
-        defines.emplace_back("NACRE_LIGHTS", std::to_string(std::min(lights, kMaxVertexLights)));
-        return {"lit_vertex.vert.glsl", "lit_vertex.frag.glsl", std::move(defines)};
+        if (lights.size() > static_cast<std::size_t>(kMaxVertexLights)) lights.resize(kMaxVertexLights);
+        return {"lit_vertex.vert.glsl", "lit_vertex.frag.glsl",
+                withLights(brdfDefines(scene, m, assets, switches.reflectance), lights)};
     }
     ShaderDefines defines;
     if (lamps) {
@@ -237,7 +238,7 @@ SceneProgram materialProgram(const SceneDescription& scene, const SceneMaterial&
         defines.emplace_back("NACRE_SCENE_LAMPS", "1");
         defines = joined(std::move(defines), shadowDefines);
     }
-    defines.emplace_back("NACRE_LIGHTS", std::to_string(lights));
+    defines = withLights(std::move(defines), lights);
     if (m.surrounding && switches.surrounding) {
         defines.emplace_back("NACRE_SCENE_SURROUNDING", "1");
         defines = joined(std::move(defines), surroundingDefines(*m.surrounding, assets));

@@ -24,10 +24,21 @@ vec2 nacre_relief_seen(ivec2 texel, vec2 towards, float distance_along, vec2 siz
     return (vec2(texel) + 0.5 + towards * distance_along) / size;
 }
 
-// <n, l> of the patch that lies towards a direction, at the texel's centre. Twin: ownPatches, without lit and 1/pi.
-float nacre_relief_own(vec4 slopes, vec2 towards, vec3 light) {
-    vec2 slope = vec2(towards.x > 0.0 ? slopes.y : slopes.x, towards.y > 0.0 ? slopes.w : slopes.z);
-    return max(0.0, dot(normalize(vec3(-slope, 1.0)), light));
+// Normal of patch q at a texel's centre. q: x 1 towards +x, y 1 towards +y. Twin: ownNormals.
+vec3 nacre_relief_own(vec4 slopes, ivec2 q) {
+    return normalize(vec3(q.x > 0 ? -slopes.y : -slopes.x, q.y > 0 ? -slopes.w : -slopes.z, 1.0));
+}
+
+// Place of a texel in a texture of (k + 1)^2 samples: corner, share of the patch. Twin: PatchSamples::of.
+void nacre_relief_sample(ivec2 texel, int k, out vec2 corner, out vec2 share) {
+    vec2 from = vec2(texel - (k + 1) / 2), each = vec2(k + 1);
+    corner = floor((from + 0.5) / each);
+    share = (from - corner * each) / float(k);
+}
+
+// In the texels of such a texture. Twin: PatchSamples::coordinate.
+vec2 nacre_relief_place(vec2 corner, vec2 share, int k) {
+    return float(k + 1) * corner + float((k + 1) / 2) + 0.5 + float(k) * share;
 }
 
 // Columns: x along the relief's x, y, normal. Twin: frameOf.

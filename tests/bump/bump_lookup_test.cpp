@@ -91,5 +91,31 @@ TEST(NormalAt, IsUnitBetweenTexels) {
     EXPECT_THROW(normalAt(mapsOf(1, 1), 0, 0), std::invalid_argument);
 }
 
+TEST(BumpLookup, MirroredTilesAreTurnedOver) {
+    BumpMaps maps = mapsOf(4, 4, Wrap::Mirror);
+    HeightMap map{Image(4, 4, 1), Wrap::Mirror};
+    for (int y = 0; y < 4; ++y)
+        for (int x = 0; x < 4; ++x) map.heights.at(x, y, 0) = static_cast<float>(0.3 * x * x + 0.2 * y);
+    maps.normals = makeNormals(map, {.levels = false});
+    maps.horizons = makeHorizonMap(map, 4);
+    maps.scatter = ScatterMap{{Vec3(0.6, 0, 0.8), Vec3(-0.6, 0, 0.8)}, {1, 1}, {Image(4, 4, 1), Image(4, 4, 1)}};
+    for (float& d : maps.scatter->distance[0].data()) d = -1;
+    const double u = 1.5 / 4, v = 1.5 / 4;
+    const Vec3 own = normalAt(maps, u, v), light = glm::normalize(Vec3(1, 0, 0.8));
+    EXPECT_LT(own.x, -0.3);
+    EXPECT_LT(litMargin(maps, u, v, light), -0.1);
+    EXPECT_GT(litMargin(maps, u, v, light * Vec3(-1, 1, 1)), 0.1);
+    EXPECT_FALSE(seenFrom(maps, u, v, {0.6, 0, 0.8}).hit);
+    for (const int tilesX : {-2, -1, 0, 1, 2})
+        for (const int tilesY : {-1, 0, 3}) {
+            const bool overX = tilesX % 2 != 0, overY = tilesY % 2 != 0;
+            const double there = tilesX + (overX ? 1 - u : u), below = tilesY + (overY ? 1 - v : v);
+            const Vec3 side(overX ? -1 : 1, overY ? -1 : 1, 1);
+            EXPECT_LT(glm::length(normalAt(maps, there, below) - own * side), 1e-6) << tilesX << ' ' << tilesY;
+            EXPECT_NEAR(litMargin(maps, there, below, light * side), litMargin(maps, u, v, light), 1e-6) << tilesX;
+            EXPECT_FALSE(seenFrom(maps, there, below, Vec3(0.6, 0, 0.8) * side).hit) << tilesX;
+        }
+}
+
 }  // namespace
 }  // namespace nacre

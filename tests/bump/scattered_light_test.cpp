@@ -12,8 +12,9 @@ namespace nacre {
 namespace {
 
 // Relative root mean square errors against traced paths, 3 bounces, 100 paths, albedo 0.7 (see reference/README.md).
-constexpr double kBar = 0.05;       // of the total; measured 1.0 % to 2.7 %
-constexpr double kIndirect = 0.25;  // of the indirect part alone; measured 4 % to 21 %
+constexpr double kBar = 0.05;       // of the total; measured 0.9 % to 2.7 %
+constexpr double kIndirect = 0.12;  // of the indirect part alone, the truth's own noise too; measured 3 % to 11 %
+constexpr double kEdges = 0.25;  // of stones under a low light; measured 21 %: its edge is always a little below theirs
 constexpr double kRounding = 1e-6;  // single precision of the result
 
 const Vec3 kLow = glm::normalize(Vec3(1, 0.4, 0.4)), kHigh = glm::normalize(Vec3(0.3, -0.5, 1));
@@ -59,13 +60,14 @@ double sumOf(const Image& image) {
 }
 
 TEST(ScatteredLight, HundredPathsOfThreeBouncesAgreeWithTracedOnes) {
-    for (const HeightMap& map : {waves(96), stones(96), roughMap(96, 96, 9)}) {
+    for (const int relief : {0, 1, 2}) {
+        const HeightMap map = relief == 0 ? waves(96) : relief == 1 ? stones(96) : roughMap(96, 96, 9);
         const ScatterMap scatter = makeScatterMap(map, {.directions = 256});
         for (const Vec3& light : {kLow, kHigh}) {
             const ScatteredLightError error = measureScatteredLight(drawReliefLightSamples(map, truthOf(light, 3000)),
                                                                     scatterLight(map, scatter, {.light = light}));
             EXPECT_LT(error.total, kBar);
-            EXPECT_LT(error.indirect, kIndirect);
+            EXPECT_LT(error.indirect, relief == 1 && light == kLow ? kEdges : kIndirect);
             EXPECT_GT(error.share, 0.02) << "a relief without indirect light proves nothing";
         }
     }
@@ -76,13 +78,13 @@ TEST(ScatteredLight, ErrorFallsWithThePaths) {
     const ScatterMap scatter = makeScatterMap(map, {.directions = 800});
     const ReliefLightSamples samples = drawReliefLightSamples(map, truthOf(kHigh, 12000), 150);
     double before = 1;
-    for (const int paths : {12, 50, 200}) {
+    for (const int paths : {5, 20, 80}) {
         const double error =
             measureScatteredLight(samples, scatterLight(map, scatter, {.light = kHigh, .paths = paths})).indirect;
-        EXPECT_LT(error, 0.75 * before) << paths;  // √4 would be 0.5, evenly spread directions do better
+        EXPECT_LT(error, 0.75 * before) << paths;  // √4 would be 0.5, evenly spread points do better
         before = error;
     }
-    EXPECT_LT(before, 0.05) << "of the indirect part alone";
+    EXPECT_LT(before, 0.03) << "of the indirect part alone";
 }
 
 TEST(ScatteredLight, PathsAloneAgreeToo) {  // equation 10 as it stands: noisier
@@ -118,6 +120,61 @@ TEST(ScatteredLight, CornerHasTheLightOfItsClosedForm) {
         const double angle = std::atan2(kSize / 2, d), share = (1 - std::cos(angle)) / 2;
         EXPECT_NEAR(lit.indirect.at(kSize / 2 + d, kSize / 2, 0), 0.7 * share * radiance, 0.03 * radiance) << d;
         EXPECT_NEAR(lit.indirect.at(kSize / 2 - d, kSize / 2, 0), 0, 1e-4) << "sees the dark slope alone";
+    }
+}
+
+/// Down towards +x: mirrored at the border, a valley of 90 degrees whose other slope is the relief turned over.
+HeightMap mirroredSlope(int size, Wrap wrap) {
+    HeightMap map{Image(size, size, 1), wrap};
+    for (int y = 0; y < size; ++y)
+        for (int x = 0; x < size; ++x) map.heights.at(x, y, 0) = static_cast<float>(size - 1 - x);
+    return map;
+}
+
+TEST(ScatteredLight, WhatLiesInAMirroredTileHasItsOwnLight) {
+    const HeightMap map = mirroredSlope(24, Wrap::Mirror), whole = reliefPeriod(map);
+    const ScatterMap scatter = makeScatterMap(map, {.directions = 512}),
+                     all = makeScatterMap(whole, {.directions = 512});
+    const auto sky = [](const Vec3& d) { return Rgb(0, d.x > 0 ? 1 : 0, d.y > 0.5 ? 1 : 0); };
+    for (const double side : {1.0, -1.0}) {  // light on the relief, dark in the tile beside it; and the other way
+        ScatteredLightOptions options{.light = glm::normalize(Vec3(side, 0.1, 1.2)), .irradiance = Rgb(1, 0, 0)};
+        options.sky = sky, options.paths = 512;
+        const ScatteredLight light = scatterLight(map, scatter, options), twin = scatterLight(whole, all, options);
+        ReliefLightOptions truth = truthOf(options.light, 2000);
+        truth.sky = sky, truth.irradiance = options.irradiance;
+        const ScatteredLightError error = measureScatteredLight(drawReliefLightSamples(map, truth, 60), light);
+        EXPECT_LT(error.indirect, kBar) << side;
+        for (const int x : {8, 16, 23})
+            EXPECT_LT(glm::length(light.indirect.rgb(x, 12) - twin.indirect.rgb(x, 12)),
+                      kBar * glm::length(twin.indirect.rgb(x, 12)) + 1e-3)
+                << side << ' ' << x;
+    }
+    const Vec3 head = glm::normalize(Vec3(-1, 0, 1 + 1e-6));
+    const double lit = scatterLight(map, scatter, {.light = head, .bounces = 1}).indirect.at(16, 12, 0);
+    EXPECT_GT(lit, 0.02) << "the mirrored slope is lit head-on, the relief itself not at all";
+}
+
+TEST(ScatteredLight, ReliefsOfAnyWrapAgreeWithTracedPaths) {
+    for (const Wrap wrap : {Wrap::Repeat, Wrap::Clamp, Wrap::Mirror}) {
+        const HeightMap map = roughMap(24, 24, 5, wrap);  // small: most of what it sees is beyond a border
+        const ScatterMap scatter = makeScatterMap(map, {.directions = 512});
+        for (const Vec3& light : {kLow, kHigh}) {
+            const ScatteredLightError error = measureScatteredLight(drawReliefLightSamples(map, truthOf(light, 3000)),
+                                                                    scatterLight(map, scatter, {.light = light}));
+            EXPECT_LT(error.indirect, kIndirect) << toString(wrap);
+            EXPECT_LT(error.total, kBar) << toString(wrap);
+        }
+    }
+}
+
+TEST(ScatteredLight, ShallowReliefsToo) {  // what they see is near the plane, where a cosine has few directions
+    for (const float amplitude : {0.5f, 2.0f}) {
+        const HeightMap map = roughMap(64, 64, amplitude);
+        const ScatteredLightError error =
+            measureScatteredLight(drawReliefLightSamples(map, truthOf(kHigh, 40000), 100),
+                                  scatterLight(map, makeScatterMap(map, {.directions = 256}), {.light = kHigh}));
+        EXPECT_LT(error.indirect, kIndirect) << amplitude;
+        EXPECT_LT(std::abs(error.bias), kBar) << amplitude;
     }
 }
 

@@ -161,7 +161,7 @@ TEST_F(Bump, FrameInGlslAndCpp) {
     }
 }
 
-// Normals, ellipse values and horizon margins at every pixel of repeated tiles, and in the first tile of each wrap.
+// Normals, ellipse values and horizon margins at every pixel of tiles of each wrap; mirrored ones are turned over.
 TEST_F(Bump, LookupsAreThoseOfCpp) {
     const Probe probe;
     for (const Wrap wrap : {Wrap::Repeat, Wrap::Clamp, Wrap::Mirror}) {
@@ -170,7 +170,8 @@ TEST_F(Bump, LookupsAreThoseOfCpp) {
         BumpMaps noEllipses = maps;
         noEllipses.ellipses.reset();
         const GpuBump map(maps);
-        const Vec2 tiles = wrap == Wrap::Mirror ? Vec2(1) : Vec2(2, 1.5);
+        const Vec2 tiles(2, 1.5);
+        const std::string l = wrap == Wrap::Mirror ? "(l * vec3(nacre_bump_mirror(p.uv), 1.0))" : "l";
         const BumpSurface surface{.map = &map, .shadow = BumpShadow::HardEllipse, .tiles = tiles};
         const Image normals = probe(surface, "p.frame[2], 1.0");
         for (int y = 0; y < kPixels; y += 3)
@@ -179,12 +180,13 @@ TEST_F(Bump, LookupsAreThoseOfCpp) {
                 EXPECT_LT(glm::length(normals.rgb(x, y) - normalAt(maps, uv.x, uv.y)), kSampler);
             }
         for (const Vec3& light : someLights()) {
-            const Image value = probe(surface, "nacre_ellipse_value(p.shape.xyz, p.offset, l)", light);
+            const Image value = probe(surface, "nacre_ellipse_value(p.shape.xyz, p.offset, " + l + ")", light);
             BumpSurface horizon = surface;
             horizon.shadow = BumpShadow::HardHorizon;
             const Image margin = probe(horizon,
                                        "nacre_horizon_margin(nacre_horizon_elevation(nacre_bump_horizons, "
-                                       "nacre_bump_azimuths, p.uv, l), l)",
+                                       "nacre_bump_azimuths, p.uv, " +
+                                           l + "), l)",
                                        light);
             const Image lit = probe(surface, "nacre_bump_lit(p, l)", light);
             for (int y = 0; y < kPixels; y += 3)

@@ -105,7 +105,7 @@ TEST_F(SceneFile, NamesUsedTwice) {
 
 TEST_F(SceneFile, UnknownKeysAndNames) {
     EXPECT_THAT(errorOf(R"({"nacre_scene": 1, "nodez": {}})"),
-                HasSubstr("scene.json: /: no key named \"nodez\"; there are nacre_scene, assets"));
+                HasSubstr("scene.json: /: no key named \"nodez\"; there are $schema, nacre_scene"));
     EXPECT_THAT(errorOf("{}"), HasSubstr("scene.json: /: expected the key \"nacre_scene\""));
     EXPECT_THAT(errorOf(R"({"nacre_scene": 2})"), HasSubstr("/nacre_scene: expected version 1, found 2"));
     write("gold.exr", "");

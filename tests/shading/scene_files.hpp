@@ -30,6 +30,11 @@ protected:
     std::vector<std::string> notes_;
 };
 
+inline std::string fileText(const std::filesystem::path& path) {
+    const std::vector<std::uint8_t> bytes = readFile(path, 1 << 20);
+    return {bytes.begin(), bytes.end()};
+}
+
 inline constexpr const char* kTriangleObj = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
 
 }  // namespace nacre::tests

@@ -189,6 +189,15 @@ std::vector<ProgramCase> programs() {
     out.push_back({"lit.vert.glsl", "environment.frag.glsl", combined({surroundings.back()}, bumpChoices())});
     for (const ShaderDefines& way : {ShaderDefines{}, ShaderDefines{{"NACRE_VOLUME_MARCH", "1"}}})
         out.push_back({"volume.vert.glsl", "volume.frag.glsl", combined({brdfs.front()}, {way})});
+    // Of scenes: ambient alone, lamps, the surrounding, both; each relief with everything.
+    const ShaderDefines lamps{{"NACRE_SCENE_LAMPS", "1"}}, surrounding{{"NACRE_SCENE_SURROUNDING", "1"}};
+    const ShaderDefines everything = combined(combined({both.back()}, {lamps}), {surrounding}).front();
+    std::vector<ShaderDefines> scenes = combined({everything}, bumpChoices());
+    scenes.push_back({});
+    scenes.push_back(combined({brdfs.front()}, {lamps}).front());
+    scenes.push_back(combined({surroundings.back()}, {surrounding}).front());
+    scenes.push_back(everything);
+    out.push_back({"lit.vert.glsl", "scene.frag.glsl", scenes});
     return out;
 }
 

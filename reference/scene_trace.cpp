@@ -1,0 +1,386 @@
+#include "reference/scene_trace.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <glm/gtc/matrix_transform.hpp>
+#include <limits>
+
+#include "core/error.hpp"
+#include "core/parallel.hpp"
+#include "core/sampling.hpp"
+#include "reference/camera_rays.hpp"
+#include "reference/surface_point.hpp"
+
+namespace nacre {
+namespace {
+
+/// Numbers of one ray and purpose (SplitMix64).
+class Random {
+public:
+    Random(std::uint64_t seed, std::uint64_t ray, std::uint64_t purpose)
+        : state_(mixed(mixed(seed + 0x9e3779b97f4a7c15u * (ray + 1)) + purpose)) {}
+    double operator()() {
+        state_ += 0x9e3779b97f4a7c15u;
+        return static_cast<double>(mixed(state_) >> 11) * 0x1p-53;
+    }
+    Vec2 pair() {
+        const double u = (*this)();
+        return {u, (*this)()};
+    }
+
+private:
+    static std::uint64_t mixed(std::uint64_t z) {
+        z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
+        z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
+        return z ^ (z >> 31);
+    }
+    std::uint64_t state_;
+};
+
+/// d of a frame whose z is n.
+Vec3 turnedTo(const Vec3& n, const Vec3& d) {
+    const Vec3 helper = std::abs(n.x) < 0.5 ? Vec3(1, 0, 0) : Vec3(0, 1, 0);
+    const Vec3 t = glm::normalize(glm::cross(helper, n)), b = glm::cross(n, t);
+    return d.x * t + d.y * b + d.z * n;
+}
+
+/// All nodes' meshes in the world as one, and which node a triangle belongs to.
+struct World {
+    Mesh mesh;
+    std::vector<std::size_t> firstTriangle, nodes;
+
+    void add(std::size_t node, const Mesh& part) {
+        const auto first = static_cast<unsigned>(mesh.positions.size());
+        firstTriangle.push_back(mesh.triangles.size());
+        nodes.push_back(node);
+        mesh.positions.insert(mesh.positions.end(), part.positions.begin(), part.positions.end());
+        mesh.normals.insert(mesh.normals.end(), part.normals.begin(), part.normals.end());
+        mesh.tangents.insert(mesh.tangents.end(), part.tangents.begin(), part.tangents.end());
+        mesh.uvs.insert(mesh.uvs.end(), part.uvs.begin(), part.uvs.end());
+        for (const glm::uvec3& t : part.triangles) mesh.triangles.push_back(t + first);
+    }
+    std::size_t nodeOf(std::uint32_t triangle) const {
+        const auto after = std::upper_bound(firstTriangle.begin(), firstTriangle.end(), std::size_t{triangle});
+        return nodes[static_cast<std::size_t>(after - firstTriangle.begin()) - 1];
+    }
+};
+
+void checkMesh(const Mesh& mesh, const std::string& name) {
+    const std::size_t n = mesh.positions.size();
+    require(mesh.normals.size() == n && mesh.tangents.size() == n && mesh.uvs.size() == n,
+            fmt::format("traceScene: mesh '{}' needs a normal, a tangent and a uv for each position", name));
+    for (const glm::vec3& p : mesh.positions)
+        require(isFinite(Vec3(p)), fmt::format("traceScene: mesh '{}': a position is not finite", name));
+}
+
+World worldOf(const SceneDescription& scene, const std::vector<glm::dmat4>& nodes, bool castersAlone) {
+    World out;
+    for (std::size_t i = 0; i < scene.nodes.size(); ++i) {
+        if (scene.nodes[i].mesh < 0 || (castersAlone && !scene.nodes[i].castsShadow)) continue;
+        const SceneMesh& mesh = scene.meshes.at(static_cast<std::size_t>(scene.nodes[i].mesh));
+        checkMesh(mesh.mesh, mesh.name);
+        out.add(i, transformed(mesh.mesh, nodes[i]));
+    }
+    return out;
+}
+
+/// Normal of the patch at a point [texels]; +z where there is none.
+Vec3 patchNormal(const HeightMap& map, const Vec2& p) {
+    const Vec2 corner(std::floor(p.x - 0.5), std::floor(p.y - 0.5)), t = p - 0.5 - corner;
+    const int i = static_cast<int>(corner.x), j = static_cast<int>(corner.y);
+    const double h00 = map.at(i, j), h10 = map.at(i + 1, j), h01 = map.at(i, j + 1), h11 = map.at(i + 1, j + 1);
+    const double dx = (1 - t.y) * (h10 - h00) + t.y * (h11 - h01), dy = (1 - t.x) * (h01 - h00) + t.x * (h11 - h10);
+    return std::isfinite(dx) && std::isfinite(dy) ? glm::normalize(Vec3(-dx, -dy, 1)) : Vec3(0, 0, 1);
+}
+
+/// Light of irradiance 1 on the plane that faces it, reflected 1 … bounces times before the point.
+Rgb bounced(const ReliefTruth& relief, const SceneRelief& options, const Vec2& at, const Vec3& normal, const Vec3& light,
+            int paths, Random& random) {
+    const double height = heightAt(relief.map, at);
+    if (std::isnan(height)) return Rgb(0);
+    Rgb sum(0);
+    for (int i = 0; i < paths; ++i) {
+        Vec3 p(at, height), n = normal;
+        Rgb carried = options.albedo;
+        for (int k = 0; k < options.bounces; ++k) {
+            const auto hit = firstHit(relief.rays, p, turnedTo(n, cosineHemisphere(random.pair())));
+            if (!hit) break;
+            const double cosine = glm::dot(hit->normal, light);
+            if (cosine > 0 && isLit(relief.rays, Vec2(hit->point), light))
+                sum += carried * options.albedo * (cosine / kPi);
+            carried *= options.albedo;
+            p = hit->point, n = hit->normal;
+        }
+    }
+    return sum / static_cast<double>(paths);
+}
+
+/// A direction of the lobe about r and its weight; the density is the lobe but for that.
+std::pair<Vec3, double> lobeSample(const Lobe& lobe, const Vec3& r, Random& random) {
+    const Vec2 u = random.pair();
+    const double phi = 2 * kPi * u.y;
+    const auto about = [&](double cosine) {
+        const double sine = std::sqrt(std::max(0.0, 1 - cosine * cosine));
+        return turnedTo(r, {sine * std::cos(phi), sine * std::sin(phi), cosine});
+    };
+    if (isMirror(lobe)) return {r, 1};
+    if (lobe.kind == LobeKind::Diffuse) return {about(std::sqrt(u.x)), 1};
+    if (lobe.kind == LobeKind::Phong) return {about(std::pow(1 - u.x, 1 / (lobe.exponent + 1))), 1};
+    const bool beckmann = lobe.kind == LobeKind::Beckmann || lobe.kind == LobeKind::BeckmannRefraction;
+    const double a2 = sqr(lobe.alpha), tan2 = beckmann ? -a2 * std::log1p(-u.x) : a2 * u.x / (1 - u.x);
+    const double cosine = (1 - tan2) / (1 + tan2);  // of twice the half vector's angle
+    return {about(cosine), std::max(0.0, cosine)};
+}
+
+class Tracer {
+public:
+    Tracer(const SceneDescription& scene, const Camera& camera, const SceneTruths& truths,
+           const std::vector<SceneParts>& parts, const SceneTraceOptions& options)
+        : scene_(scene),
+          truths_(truths),
+          parts_(parts),
+          options_(options),
+          nodes_(nodeTransforms(scene, options.time)),
+          lights_(lightsInWorld(scene, nodes_)),
+          world_(worldOf(scene, nodes_, false)),
+          all_(world_.mesh),
+          casters_(worldOf(scene, nodes_, true).mesh),
+          rays_(camera, options.width, options.height, options.supersample),
+          turn_(Mat3(glm::rotate(glm::dmat4(1), -scene.sky.rotationY, Vec3(0, 1, 0)))) {
+        for (const SceneParts& p : parts) occlusion_ = occlusion_ || p.occlusion;
+    }
+
+    void pixel(int x, int y, std::vector<Image>& out) const {
+        std::vector<Rgb> sums(parts_.size(), Rgb(0));
+        for (int k = 0; k < rays_.samples(); ++k) {
+            const Ray ray = rays_.at(x, y, k);
+            const Vec3 direction = glm::normalize(ray.direction);
+            const RayHit hit = all_.firstHit(ray);
+            const std::uint64_t number =
+                (static_cast<std::uint64_t>(y) * options_.width + x) * rays_.samples() + static_cast<unsigned>(k);
+            if (!hit.found) {
+                for (std::size_t i = 0; i < sums.size(); ++i) sums[i] += background(parts_[i], direction);
+                continue;
+            }
+            Point point = pointAt(hit, -direction, number);
+            for (std::size_t i = 0; i < sums.size(); ++i) sums[i] += radiance(point, parts_[i]);
+        }
+        for (std::size_t i = 0; i < sums.size(); ++i) out[i].setRgb(x, y, sums[i] / double(rays_.samples()));
+    }
+
+private:
+    /// What is blocked of the sky that a normal sees, of rays with the cosine about it.
+    struct Blocked {
+        double byRelief = 0, byAll = 0;          ///< shares
+        Rgb radianceByRelief{0}, radianceByAll{0};  ///< of the diffuse light
+    };
+    /// A hit, and what costs rays: found once for all pictures.
+    struct Point {
+        SurfacePoint s;
+        std::size_t node = 0;
+        std::uint64_t number = 0;
+        const SceneMaterial* material = nullptr;
+        const MaterialTruth* truth = nullptr;
+        Vec2 at{0};                       ///< in the relief [texels]
+        Vec3 reliefNormal{0, 0, 1};       ///< in the mesh's frame
+        std::vector<int> shadowed, dark;  ///< a light: by meshes, by the relief; −1 = not asked
+        std::optional<Rgb> indirect;
+        std::optional<Blocked> blocked[2];   ///< without and with the relief's normal
+        std::optional<Rgb> mirrorBlocked[2];
+    };
+
+    Rgb background(const SceneParts& parts, const Vec3& direction) const {
+        if (!parts.sky) return Rgb(0);
+        return truths_.sky ? truths_.sky(turn_ * direction) : scene_.sky.color;
+    }
+
+    Point pointAt(const RayHit& hit, const Vec3& toEye, std::uint64_t number) const {
+        Point p;
+        p.s = surfaceAt(world_.mesh, hit, toEye);
+        p.node = world_.nodeOf(hit.triangle);
+        p.number = number;
+        const auto material = static_cast<std::size_t>(scene_.nodes[p.node].material);
+        p.material = &scene_.materials.at(material);
+        p.truth = &truths_.materials[material];
+        p.shadowed.assign(lights_.size(), -1);
+        p.dark.assign(lights_.size(), -1);
+        if (p.truth->relief) {
+            const HeightMap& map = p.truth->relief->map;
+            p.at = p.s.uv * p.material->relief->tiles * Vec2(map.width(), map.height());
+            p.reliefNormal = patchNormal(map, p.at);
+        }
+        return p;
+    }
+
+    /// The frame of reflectance. Twin: nacre_bump_frame.
+    static SurfacePoint shadingFrame(const Point& p, bool relief) {
+        static constexpr double kLeast = 0.05;
+        SurfacePoint out = p.s;
+        const double facing = glm::dot(p.s.normal, p.s.toEye);
+        if (!relief || facing <= 0) return out;
+        Vec3 n = p.reliefNormal.x * p.s.tangent + p.reliefNormal.y * p.s.bitangent + p.reliefNormal.z * p.s.normal;
+        const double missing = std::min(facing, kLeast) - glm::dot(n, p.s.toEye);
+        if (missing > 0) n = glm::normalize(n + missing * p.s.toEye);
+        const double hand = glm::dot(glm::cross(p.s.normal, p.s.tangent), p.s.bitangent) < 0 ? -1 : 1;
+        const Vec3 t = p.s.tangent - glm::dot(n, p.s.tangent) * n;
+        out.normal = n;
+        out.tangent = glm::dot(t, t) > 1e-12 ? glm::normalize(t) : turnedTo(n, {1, 0, 0});
+        out.bitangent = hand * glm::cross(n, out.tangent);
+        return out;
+    }
+
+    double skip() const { return 1e-4 * all_.size(); }  // past the triangle itself: positions are single precision
+
+    bool shadowed(Point& p, std::size_t light, const Vec3& offset) const {
+        if (!scene_.lights[light].shadow || !scene_.nodes[p.node].receivesShadow) return false;
+        if (p.shadowed[light] < 0) {
+            const double length = glm::length(offset);
+            const double end =
+                lights_[light].directional ? std::numeric_limits<float>::max() : length - skip();
+            p.shadowed[light] = casters_.occluded({p.s.position, offset / length, skip(), end});
+        }
+        return p.shadowed[light] != 0;
+    }
+    static bool dark(Point& p, std::size_t light, const Vec3& local) {
+        if (p.dark[light] < 0) p.dark[light] = !isLit(p.truth->relief->rays, p.at, local);
+        return p.dark[light] != 0;
+    }
+
+    Rgb lamps(Point& p, const SurfacePoint& frame, const SceneParts& parts, bool relief) const {
+        const BrdfFunction& f = parts.bakedBrdf && p.truth->bakedBrdf ? p.truth->bakedBrdf : p.truth->brdf;
+        const Vec3 wo = toLocal(frame, p.s.toEye);
+        Rgb sum(0);
+        if (!f || !(glm::dot(p.s.normal, p.s.toEye) > 0)) return sum;
+        for (std::size_t i = 0; i < lights_.size(); ++i) {
+            const Light& light = lights_[i];
+            const Vec3 offset = light.directional ? light.position : light.position - p.s.position;
+            const Vec3 toLight = glm::normalize(offset), local = toLocal(p.s, toLight), wi = toLocal(frame, toLight);
+            const Rgb arriving = light.color * lightFalloff(light, p.s.position);
+            if (arriving == Rgb(0) || (relief && local.z <= 0)) continue;
+            const bool bounces = relief && parts.indirect && p.material->relief->indirectLight == static_cast<int>(i);
+            if (!bounces && !(wi.z > 0 && wo.z > 0)) continue;
+            if (parts.shadows && shadowed(p, i, offset)) continue;
+            if (bounces) sum += indirect(p, local) * arriving;
+            if (!(wi.z > 0 && wo.z > 0) || (relief && parts.reliefShadow && dark(p, i, local))) continue;
+            sum += f(wi, wo) * arriving * wi.z;
+        }
+        return sum;
+    }
+    Rgb indirect(Point& p, const Vec3& local) const {
+        if (!p.indirect) {
+            Random random(options_.seed, p.number, 0);
+            p.indirect = bounced(*p.truth->relief, *p.material->relief, p.at, p.reliefNormal, local,
+                                 options_.indirectPaths, random);
+        }
+        return *p.indirect;
+    }
+
+    const Blocked& blocked(Point& p, const Vec3& normal, bool relief) const {
+        std::optional<Blocked>& kept = p.blocked[relief];
+        if (kept) return *kept;
+        Random random(options_.seed, p.number, 1);
+        const int rays = occlusion_ ? std::max(options_.skyRays, options_.occlusionRays) : options_.skyRays;
+        Blocked sum;
+        for (int i = 0; i < rays; ++i) {
+            const Vec3 d = turnedTo(normal, cosineHemisphere(random.pair())), local = toLocal(p.s, d);
+            const bool byRelief = relief && (local.z <= 0 || !isLit(p.truth->relief->rays, p.at, local));
+            const bool byAll = byRelief || (occlusion_ && blockedByMeshes(p, d));
+            if (!byAll) continue;
+            const Rgb radiance = p.truth->diffuseSource ? p.truth->diffuseSource(turn_ * d) : Rgb(0);
+            sum.byAll += 1.0 / rays, sum.radianceByAll += radiance / double(rays);
+            if (byRelief) sum.byRelief += 1.0 / rays, sum.radianceByRelief += radiance / double(rays);
+        }
+        return *(kept = sum);
+    }
+    bool blockedByMeshes(const Point& p, const Vec3& d) const {
+        return all_.occluded({p.s.position, d, skip(), std::numeric_limits<float>::max()});
+    }
+    Rgb mirrorBlocked(Point& p, const Vec3& r, bool relief) const {
+        std::optional<Rgb>& kept = p.mirrorBlocked[relief];
+        if (kept) return *kept;
+        Random random(options_.seed, p.number, 2);
+        const int rays = isMirror(p.truth->reflectionLobe) ? 1 : options_.occlusionRays;
+        Rgb sum(0);
+        double weights = 0;
+        for (int i = 0; i < rays; ++i) {
+            const auto [d, weight] = lobeSample(p.truth->reflectionLobe, r, random);
+            weights += weight;
+            if (weight > 0 && blockedByMeshes(p, d)) sum += weight * p.truth->reflectionSource(turn_ * d);
+        }
+        return *(kept = weights > 0 ? sum / weights : Rgb(0));
+    }
+
+    Rgb surrounding(Point& p, const SurfacePoint& frame, const SceneParts& parts, bool relief) const {
+        const SurroundedSurface& surface = p.truth->surrounding;
+        SurroundedSurface here = surface;
+        const bool blocks = (relief && parts.reliefShadow) || parts.occlusion;
+        if (surface.reflection)
+            here.reflection = [&](const Vec3& r) {
+                const Rgb all = surface.reflection(turn_ * r);
+                return parts.occlusion ? all - mirrorBlocked(p, r, relief) : all;
+            };
+        if (surface.transmission) here.transmission = [&](const Vec3& t) { return surface.transmission(turn_ * t); };
+        if (surface.diffuse)
+            here.diffuse = [&](const Vec3& n) {
+                const Rgb all = surface.diffuse(turn_ * n);
+                if (!blocks) return all;
+                const Blocked& b = blocked(p, n, relief);
+                return all - (parts.occlusion ? b.radianceByAll : b.radianceByRelief);
+            };
+        return surroundedRadiance(here, p.s.toEye, frame.normal);
+    }
+
+    Rgb radiance(Point& p, const SceneParts& parts) const {
+        const bool relief = parts.relief && p.truth->relief;
+        const SurfacePoint frame = shadingFrame(p, relief);
+        Rgb sum(0);
+        if (parts.ambient && p.material->ambient != Rgb(0)) {
+            double seen = 1;
+            if ((relief && parts.reliefShadow) || parts.occlusion) {
+                const Blocked& b = blocked(p, frame.normal, relief);
+                seen -= parts.occlusion ? b.byAll : b.byRelief;
+            }
+            sum += p.material->ambient * seen;
+        }
+        if (parts.lamps) sum += lamps(p, frame, parts, relief);
+        if (parts.surrounding && p.material->surrounding) sum += surrounding(p, frame, parts, relief);
+        return sum;
+    }
+
+    const SceneDescription& scene_;
+    const SceneTruths& truths_;
+    const std::vector<SceneParts>& parts_;
+    const SceneTraceOptions& options_;
+    std::vector<glm::dmat4> nodes_;
+    std::vector<Light> lights_;
+    World world_;
+    EmbreeScene all_, casters_;
+    CameraRays rays_;
+    Mat3 turn_;
+    bool occlusion_ = false;
+};
+
+}  // namespace
+
+std::vector<Image> traceScene(const SceneDescription& scene, const Camera& camera, const SceneTruths& truths,
+                              const std::vector<SceneParts>& parts, const SceneTraceOptions& options) {
+    require(options.width >= 1 && options.height >= 1 && options.supersample >= 1 && options.skyRays >= 1 &&
+                options.indirectPaths >= 1 && options.occlusionRays >= 1,
+            "traceScene: sizes and numbers of rays must be >= 1");
+    require(truths.materials.size() == scene.materials.size(), "traceScene: expected a truth for each material");
+    for (const SceneLight& light : scene.lights) checkCone(light.light);
+    const Tracer tracer(scene, camera, truths, parts, options);
+    std::vector<Image> out(parts.size(), Image(options.width, options.height, 3));
+    static constexpr int kBand = 8;  // rows between two reports
+    for (int first = 0; first < options.height; first += kBand) {
+        report(options.progress, "tracing", static_cast<double>(first) / options.height);
+        const int rows = std::min(kBand, options.height - first);
+        parallelFor(static_cast<std::size_t>(rows), options.threads, [&](std::size_t row) {
+            for (int x = 0; x < options.width; ++x) tracer.pixel(x, first + static_cast<int>(row), out);
+        });
+    }
+    return out;
+}
+
+}  // namespace nacre

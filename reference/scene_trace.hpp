@@ -1,0 +1,52 @@
+// The true picture of a scene: the same SceneDescription as shading/scene_renderer.hpp draws, traced.
+#pragma once
+
+#include "core/image.hpp"
+#include "core/progress.hpp"
+#include "core/scene_description.hpp"
+#include "reference/scene_truths.hpp"
+
+namespace nacre {
+
+/// What light a picture has: the same words as SceneSwitches of shading/scene_programs.hpp.
+struct SceneParts {
+    bool lamps = true, ambient = true;
+    bool shadows = true;       ///< of meshes on meshes, for lights that have a SceneShadow
+    bool relief = true;        ///< bumped normals, and all of a relief's light
+    bool reliefShadow = true;  ///< the relief on itself: of lamps, ambient and diffuse light
+    bool indirect = true;      ///< bounced light in reliefs
+    bool surrounding = true;
+    bool sky = true;
+    bool bakedBrdf = false;    ///< the baked BRDF in place of the unfactored one
+    bool occlusion = false;    ///< meshes block the surrounding's light (reflected and diffuse, not transmitted)
+};
+
+struct SceneTraceOptions {
+    int width = 512, height = 512;  ///< [pixels] ≥ 1
+    int supersample = 2;            ///< n × n rays a pixel on a regular grid, ≥ 1
+    double time = 0;                ///< [s]
+    int skyRays = 4;                ///< of a ray, into a relief's sky: what of the diffuse and ambient light is blocked
+    int indirectPaths = 4;          ///< of a ray
+    int occlusionRays = 8;          ///< of a ray, into each of the surrounding's lobes; with SceneParts::occlusion
+    std::uint64_t seed = 1;
+    unsigned threads = 0;  ///< same bits for any
+    Progress progress{};
+};
+
+/// One picture for each of `parts`, of the same rays. At the first triangle between near and far plane, either side:
+///   lamps        Σ f · cosα · irradiance, f unfactored; shadow rays to lights with a SceneShadow past nodes that cast
+///   relief       the normal of the height field's own patch at uv · tiles; where that faces away from the eye it is
+///                tilted as the shader does; a lamp is dark below the exact horizon and where the mesh faces away
+///   ambient      times the share of cosine-weighted directions about the normal that leave the relief
+///   indirect     paths over the height field with its own patches, of SceneRelief's light at this point's direction,
+///                albedo and bounces; Lambert
+///   surrounding  integrals of the unbaked environment over the lobe that the baked level states, exact Fresnel; minus,
+///                of the diffuse part, what the relief blocks
+/// The last three lines' rays are random (Monte Carlo; the estimate is unbiased but for averages over 3° of what is
+/// blocked). In neither picture: light that bounces between meshes, or in reliefs from other lights and the surrounding;
+/// reliefs as seen in mirrored and refracted directions; parallax.
+/// \throws std::invalid_argument: sizes or counts < 1, truths for another number of materials, non-finite positions
+std::vector<Image> traceScene(const SceneDescription& scene, const Camera& camera, const SceneTruths& truths,
+                              const std::vector<SceneParts>& parts, const SceneTraceOptions& options = {});
+
+}  // namespace nacre
