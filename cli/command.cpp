@@ -95,21 +95,15 @@ static void requireKnownVerb(const std::vector<Verb>& verbs, int argc, const cha
 }
 
 static std::vector<Verb> makeVerbs(Context& context) {
-    return {factorizeVerb(context), envmapVerb(context), bumpVerb(context), fresnelVerb(context),
-            shVerb(context),        infoVerb(context),   evalVerb(context), renderVerb(context),
-            modelsVerb(context),    methodsVerb(context)};
+    return {factorizeVerb(context), envmapVerb(context), bumpVerb(context),   fresnelVerb(context),
+            shVerb(context),        bakeVerb(context),   infoVerb(context),   evalVerb(context),
+            renderVerb(context),    viewVerb(context),   modelsVerb(context), methodsVerb(context)};
 }
 
 static int parseAndRun(int argc, const char* const* argv) {
     Context context;
     for (int i = 0; i < argc; ++i) context.commandLine += (i ? " " : "") + quoted(i ? argv[i] : "nacre");
-<<<<<<< HEAD
     const std::vector<Verb> verbs = makeVerbs(context);
-=======
-    const std::vector<Verb> verbs = {
-        factorizeVerb(context), envmapVerb(context), bumpVerb(context), fresnelVerb(context), shVerb(context),
-        bakeVerb(context),      infoVerb(context),   evalVerb(context), modelsVerb(context),  methodsVerb(context)};
->>>>>>> scene
     requireKnownVerb(verbs, argc, argv);
     CLI::App app("Bakes reflectance and light into small textures, each with its measured error written inside.",
                  "nacre");
