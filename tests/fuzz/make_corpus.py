@@ -110,7 +110,6 @@ write("tiff/bigtiff_big.tif", tiff(">", True, b"-3.4028234663852886e+38\0"))
 write("tiff/no_number.tif", tiff("<", False, b"none\xff\0"))
 
 
-<<<<<<< HEAD
 def chunk(kind, data):
     return struct.pack(">I", len(data)) + kind + data + struct.pack(">I", zlib.crc32(kind + data))
 
@@ -124,7 +123,8 @@ write("volume/head.den", struct.pack("<H", 1) + boxes + struct.pack("<HI", 3, 12
 for kind, bits, data in [("float", 32, struct.pack("<2f", 1, -2)), ("signed fixed", 16, struct.pack("<2h", 1, -2))]:
     header = f"#INRIMAGE-4#{{\nXDIM=2\nYDIM=1\nZDIM=1\nVDIM=1\nTYPE={kind}\nPIXSIZE={bits} bits\nCPU=decm\nVX=2\n"
     write(f"volume/{bits}.inr", header.encode().ljust(252, b"\n") + b"##}\n" + data)
-=======
+
+
 def glb(document, rest=b""):
     text = json.dumps(document).encode()
     text += b" " * (-len(text) % 4)
@@ -178,4 +178,3 @@ write("scene/import.json", b'{"nacre_scene": 1, "nodes": {"n": {"import": "x.glb
 write("scene/twice.json", b'{"nacre_scene": 1, "nodes": {"n": {}, "n": {}}}')
 write("scene/cycle.json", b'{"nacre_scene": 1, "nodes": {"n": {"children": ["m"]}, "m": {"children": ["n"]}}}')
 write("scene/deep.json", b"[" * 70)
->>>>>>> scene
