@@ -6,12 +6,18 @@ namespace nacre {
 
 /// A view that rests for this long is traced.
 constexpr std::chrono::milliseconds kRest(300);
+constexpr int kSamples = 4;
 
 Comparison::Comparison(ReferenceTracer tracer, std::function<void()> woken, int passes, int scale)
     : tracer_(std::move(tracer)), woken_(std::move(woken)), passes_(passes), scale_(scale) {}
 
+/// Leaves the thread to itself: waiting for it would hold up the window.
 void Comparison::stop() {
-    job_.reset();
+    if (job_) {
+        job_->stop();
+        ending_ = std::move(job_);
+    }
+    if (ending_ && ending_->state().done) ending_.reset();
     image_.reset();
     difference_.reset();
     taken_ = 0;
@@ -21,7 +27,9 @@ void Comparison::stop() {
 
 void Comparison::start(ViewerSession& session) {
     const int width = std::max(1, session.width() / scale_), height = std::max(1, session.height() / scale_);
-    own_ = session.pictureOf(width, height);
+    // Smooth edges on both sides, whatever the window has: else silhouettes are most of the difference.
+    const int samples = std::max(kSamples, session.options().samples);
+    own_ = session.pictureOf(width, height, samples);
     job_ = std::make_unique<ReferenceJob>(
         tracer_, ReferenceView{session.scene(), session.camera, session.time, session.switches, width, height}, passes_,
         woken_);
@@ -51,7 +59,8 @@ bool Comparison::poll(ViewerSession& session, double white) {
         waitsSince_ = now;
         return had;
     }
-    if (waitsSince_ && now - *waitsSince_ >= kRest && session.width() > 0 && session.height() > 0) {
+    if (ending_ && ending_->state().done) ending_.reset();
+    if (waitsSince_ && !ending_ && now - *waitsSince_ >= kRest && session.width() > 0 && session.height() > 0) {
         waitsSince_.reset();
         start(session);
     }

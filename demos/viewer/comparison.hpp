@@ -45,8 +45,8 @@ private:
     ReferenceTracer tracer_;
     std::function<void()> woken_;
     int passes_, scale_;
-    std::unique_ptr<ReferenceJob> job_;
-    int revision_ = -1;  ///< of the session, that the job traces or that was seen last
+    std::unique_ptr<ReferenceJob> job_, ending_;  ///< ending_: stopped, and not yet ended
+    int revision_ = -1;                           ///< of the session, that the job traces or that was seen last
     std::optional<std::chrono::steady_clock::time_point> waitsSince_;
     Image own_, reference_;  ///< of one size
     std::optional<Image> image_;

@@ -3,6 +3,7 @@
 
 #include <CLI/CLI.hpp>
 #include <cstdio>
+#include <thread>
 
 #include "core/error.hpp"
 #include "demos/viewer/app.hpp"
@@ -57,7 +58,9 @@ int run(int argc, char** argv) {
     if (!size.empty()) takeSize(size, options);
     if (white > 0) options.white = white;
     options.panel = !noPanel;
-    nacre::runViewer(options, {});
+    // One core stays with the window.
+    const unsigned cores = std::thread::hardware_concurrency();
+    nacre::runViewer(options, nacre::sceneTracer(cores > 1 ? cores - 1 : 1));
     return 0;
 }
 

@@ -24,12 +24,12 @@ struct ReferenceJob::Shared {
         try {
             for (int pass = 0; pass < passes && !stop; ++pass) {
                 const Image picture = tracer(view, pass, [this] { return stop.load(); });
-                if (stop) return;
+                if (stop) break;
                 add(picture);
                 woken();
             }
         } catch (const std::exception& error) {
-            problem = error.what();
+            if (!stop) problem = error.what();
         }
         {
             const std::lock_guard lock(mutex);
@@ -62,9 +62,11 @@ ReferenceJob::ReferenceJob(ReferenceTracer tracer, ReferenceView view, int passe
 }
 
 ReferenceJob::~ReferenceJob() {
-    shared_->stop = true;
+    stop();
     shared_->thread.join();
 }
+
+void ReferenceJob::stop() { shared_->stop = true; }
 
 ReferenceJob::State ReferenceJob::state() const {
     const std::lock_guard lock(shared_->mutex);

@@ -18,25 +18,34 @@ struct ReferenceView {
     Camera camera;
     double time = 0;
     SceneSwitches switches;
-    int width = 0, height = 0;
+    int width = 0, height = 0, samples = 1;
+    int materials = 0;  ///< version of what the scene's materials and assets are: same number, same truths
 };
 
 /// One pass: a picture with its own random numbers, whose mean over passes is the reference.
 /// \param pass  0, 1, … seeds it. \param stopped  to be asked often; true: return soon, with anything
 using ReferenceTracer = std::function<Image(const ReferenceView& view, int pass, const std::function<bool()>& stopped)>;
 
+/// Traces with reference/scene_trace.hpp. What the assets approximate is opened once for each version of the materials.
+/// A stopped pass ends by an exception within a few rows. One job at a time.
+/// \param threads  0 = all cores
+ReferenceTracer sceneTracer(unsigned threads);
+
 class ReferenceJob {
 public:
     /// \param woken  called on the job's thread whenever there is news
     ReferenceJob(ReferenceTracer tracer, ReferenceView view, int passes, std::function<void()> woken);
-    /// Stops the thread: waits until the tracer has seen it.
+    /// stop(), and waits until the tracer has seen it.
     ~ReferenceJob();
     ReferenceJob(const ReferenceJob&) = delete;
     ReferenceJob& operator=(const ReferenceJob&) = delete;
 
+    /// Asks the tracer to end; state().done says when it has.
+    void stop();
+
     struct State {
         int passes = 0;       ///< done
-        bool done = false;    ///< all of them, or failed
+        bool done = false;    ///< all of them, failed, or stopped
         std::string problem;  ///< why it failed
     };
     State state() const;

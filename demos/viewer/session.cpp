@@ -105,8 +105,8 @@ bool ViewerSession::draw() {
     return attempt("picture", [&] { drawOnce(); });
 }
 
-Image ViewerSession::pictureOf(int width, int height) {
-    const RenderTarget other({.width = width, .height = height, .samples = options_.samples});
+Image ViewerSession::pictureOf(int width, int height, int samples) {
+    const RenderTarget other({.width = width, .height = height, .samples = samples});
     renderer_->switches = switches;
     renderer_->setTiming(false);
     renderer_->render(other, camera, time);
@@ -128,6 +128,7 @@ bool ViewerSession::attempt(const std::string& about, const std::function<void()
 void ViewerSession::apply(SceneDescription next) {
     SceneDescription last = scene();
     renderer_->setScene(std::move(next));
+    ++materials_;
     touch();
     try {
         drawOnce();
@@ -170,6 +171,7 @@ bool ViewerSession::setMaterial(std::size_t material, const SceneMaterial& value
     return attempt("material", [&] {
         const SceneMaterial last = scene().materials.at(material);
         renderer_->setMaterial(material, value);
+        ++materials_;
         touch();
         try {
             drawOnce();
@@ -193,6 +195,7 @@ bool ViewerSession::replaceAsset(std::size_t asset, const fs::path& file) {
 
 bool ViewerSession::setSky(const SceneSky& value) {
     touch();
+    ++materials_;
     return attempt("sky", [&] { renderer_->setSky(value); });
 }
 
@@ -273,6 +276,7 @@ bool ViewerSession::poll() {
             problems_.erase(about);
         else
             problems_[about] = change.problem;
+        ++materials_;
         touch();
     }
     if (!sceneFiles_.changed().empty()) readScene(), news = true;

@@ -45,6 +45,9 @@ public:
     /// Grows with everything that changes the picture.
     int revision() const { return revision_; }
 
+    /// Grows with everything that changes what assets and materials are.
+    int materials() const { return materials_; }
+
     /// Takes `to`, with near and far fitted to the scene.
     void move(const Camera& to);
     void resetCamera();
@@ -64,7 +67,7 @@ public:
     int pictures() const { return pictures_; }   ///< drawn so far
     double seconds() const { return seconds_; }  ///< that the last one took
     /// The same view in another size.
-    Image pictureOf(int width, int height);
+    Image pictureOf(int width, int height, int samples);
 
     // Edits. Each one that fails leaves everything as it was, and its reason among the problems.
     bool setLight(std::size_t light, const SceneLight& value);
@@ -103,7 +106,7 @@ private:
     SceneBounds bounds_;
     FileWatch sceneFiles_, shaderFiles_;
     std::map<std::string, std::string> problems_;
-    int width_ = 0, height_ = 0, revision_ = 1, drawn_ = 0, pictures_ = 0;
+    int width_ = 0, height_ = 0, revision_ = 1, materials_ = 1, drawn_ = 0, pictures_ = 0;
     double seconds_ = 0;
 };
 

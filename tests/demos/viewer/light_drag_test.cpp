@@ -76,7 +76,9 @@ TEST(LightDrag, PlacedInTheWorldUnderATurnedAndScaledNode) {
         const Light back = lightsInWorld(scene, nodes)[0];
         EXPECT_LT(glm::length(back.position - world.position), 1e-9);
         EXPECT_EQ(back.color, world.color);
-        if (world.cone) EXPECT_LT(glm::length(back.cone->axis - world.cone->axis), 1e-9);
+        if (world.cone) {
+            EXPECT_LT(glm::length(back.cone->axis - world.cone->axis), 1e-9);
+        }
     }
 }
 

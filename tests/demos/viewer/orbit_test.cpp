@@ -83,8 +83,8 @@ TEST(CameraText, ReadsBackToTheSameCamera) {
         EXPECT_EQ(read.target, camera.target);
         EXPECT_LT(glm::length(read.up - camera.up), kRounding);
         EXPECT_EQ(read.orthographic, orthographic);
-        if (orthographic) EXPECT_EQ(read.height, camera.height);
-        if (!orthographic) EXPECT_NEAR(read.fovY, camera.fovY, kRounding);
+        EXPECT_EQ(read.height, orthographic ? camera.height : Camera{}.height);
+        EXPECT_NEAR(read.fovY, camera.fovY, kRounding);
         EXPECT_EQ(read.near, camera.near);
         EXPECT_EQ(read.far, camera.far);
     }

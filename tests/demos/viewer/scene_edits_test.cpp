@@ -35,7 +35,7 @@ TEST(SceneEdits, FindsBakedAssetsAmongOtherFiles) {
     Asset asset;
     asset.kind = "fresnel";
     asset.meta["kind"] = "fresnel";
-    asset.textures.push_back({"fresnel", Image(4, 1, 1), TexelFormat::Float});
+    asset.textures.push_back({.name = "fresnel", .mapping = "cos", .image = Image(4, 1, 1)});
     writeAsset(asset, scratch / "b.exr");
     writeAsset(asset, scratch / "a.exr");
     writeFile(scratch / "broken.exr", "no EXR");
