@@ -81,10 +81,9 @@ Exhibit composed(const Task& task) {
         };
         builder.panel(label, draw, {truth, everywhere});
     };
-    builder.row("Everything, and the true picture of the same light");
+    builder.row("Everything, against the true picture of the same light, and against all light");
     panel("everything", {}, truths[0]);
-    builder.row("Against a truth in which meshes also block the surrounding's light, as no pass here does", false);
-    panel("everything", {}, truths.back());
+    panel("the same; in this truth meshes block the surrounding's light too, as no pass here does", {}, truths.back());
     builder.row("One part switched off, in the picture alone: what it is good for", false);
     for (std::size_t i = 1; i < parts.size(); ++i) panel(parts[i].label, parts[i].off, truths[0]);
     builder.row("The same part left out of the truth as well: what the others do wrong", false);
