@@ -155,6 +155,8 @@ SceneDescription fullScene() {
     sun.light = {true, glm::normalize(Vec3(-1, 2, 1)), Rgb(0.8, 0.75, 0.7), {}};
     spot.name = "spot";
     spot.light = {false, {1.2, 2.4, 1.5}, Rgb(14), SpotCone{glm::normalize(Vec3(-1, -2.6, -1.4)), 0.3, 0.5}};
+    sun.shadow = spot.shadow = SceneShadow{};
+    sun.shadow->size = spot.shadow->size = 256;
     scene.lights = {sun, spot};
     scene.sky.asset = kSky;
     scene.sky.rotationY = 0.7;
