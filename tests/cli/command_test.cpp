@@ -46,6 +46,7 @@ TEST(CommandUsage, HelpOfEveryVerbGoesToStandardOutput) {
                                                   {"eval", "--help"},
                                                   {"models", "--help"},
                                                   {"methods", "--help"},
+                                                  {"view", "--help"},
                                                   {"--help-all"},
                                                   {"--version"}}) {
         const Outcome outcome = nacre(words);
