@@ -111,7 +111,7 @@ static void renderLit(ProgramLoader& loader, const RenderTarget& target, const G
                       const Brdf& brdf, const EnvironmentSurface& surface, const BumpSurface& relief) {
     checkLights(view.lights, kMaxLights);
     const ShaderDefines defines =
-        joined(joined(withLights(brdf.defines(), view.lights), environmentDefines(surface)), bumpDefines(relief));
+        joined(joined(withLights(brdf.defines(), view), environmentDefines(surface)), bumpDefines(relief));
     const Program& program = loader.load("lit.vert.glsl", "lit_environment.frag.glsl", defines);
     brdf.bind(program);
     bindEnvironment(program, surface, kFirstUnit);

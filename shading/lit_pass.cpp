@@ -27,6 +27,10 @@ int mostLights(Addressing addressing) {
     return addressing == Addressing::PerPixel ? kMaxLights : addressing == Addressing::PerVertex ? kMaxVertexLights : 1;
 }
 
+void checkShadows(const LitView& view, Addressing addressing) {
+    require(view.shadows.empty() || addressing == Addressing::PerPixel, "shadow maps need Addressing::PerPixel");
+}
+
 void setMatrices(const Program& program, const LitView& view) {
     const Vec3 l = view.lights[0].position, v = orthographicDirection(view.camera);
     program.set("nacre_matrix_half", glm::mat4(textureMatrixHalf(l, v)));
@@ -43,7 +47,7 @@ void renderRelief(ProgramLoader& loader, const RenderTarget& target, const GpuMe
     checkLights(view.lights, kMaxLights);
     const Stages files = stages(Addressing::PerPixel);
     const Program& program =
-        loader.load(files.vertex, files.fragment, joined(withLights(brdf.defines(), view.lights), bumpDefines(relief)));
+        loader.load(files.vertex, files.fragment, joined(withLights(brdf.defines(), view), bumpDefines(relief)));
     brdf.bind(program);
     bindBump(program, relief, kMaxFactoredTextures);
     setView(program, view.camera, target);
@@ -56,8 +60,9 @@ void renderRelief(ProgramLoader& loader, const RenderTarget& target, const GpuMe
 void renderFactored(ProgramLoader& loader, const RenderTarget& target, const GpuMesh& mesh, const LitView& view,
                     const GpuFactoredBrdf& brdf, Addressing addressing) {
     checkLights(view.lights, mostLights(addressing));
+    checkShadows(view, addressing);
     const bool matrices = addressing == Addressing::TextureMatrix;
-    ShaderDefines defines = withLights(brdf.defines(), view.lights);
+    ShaderDefines defines = withLights(brdf.defines(), view);
     if (matrices) {
         require(hasForm(brdf, "COSINE") || hasForm(brdf, "TANGENT"),
                 "texture matrices address the forms cosine and tangent only");
@@ -78,8 +83,9 @@ void renderDirect(ProgramLoader& loader, const RenderTarget& target, const GpuMe
                   const GpuDirectBrdf& brdf, Addressing addressing) {
     require(addressing != Addressing::TextureMatrix, "texture matrices address textures, not formulas");
     checkLights(view.lights, mostLights(addressing));
+    checkShadows(view, addressing);
     const Stages files = stages(addressing);
-    const Program& program = loader.load(files.vertex, files.fragment, withLights(brdf.defines(), view.lights));
+    const Program& program = loader.load(files.vertex, files.fragment, withLights(brdf.defines(), view));
     brdf.bind(program);
     setView(program, view.camera, target);
     setLights(program, view);

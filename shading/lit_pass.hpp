@@ -25,16 +25,22 @@ enum class Addressing {
     TextureMatrix  ///< equations 2 and 3: forms cosine and tangent, one directional light, orthographic camera
 };
 
+class ShadowMap;
+
 struct LitView {
     Camera camera;
     std::vector<Light> lights;  ///< colors >= 0 or any sign; nothing is clamped
     Rgb ambient{0};             ///< radiance added to every point of the surface
     glm::dmat4 toWorld{1};      ///< places the mesh: drawn as nacre::transformed(mesh, toWorld), mirrored ones too
+    /// Of the lights, one each or null (shading/shadow_map.hpp); none at all: no shadows. Addressing::PerPixel only.
+    std::vector<const ShadowMap*> shadows{};
 };
 
 /// Draws into `target` with depth test and depth write on, face culling and blending off, and leaves these so, with the
 /// program in use and the BRDF's textures bound from unit 0. Doesn't clear. Back faces are black (plus ambient).
-/// \throws std::invalid_argument with more lights than the addressing takes, a directional light that is not unit
+/// Shadow maps are bound from unit 13.
+/// \throws std::invalid_argument with shadow maps that aren't as shadowDefines (shading/shadow_map.hpp) says, more
+/// lights than the addressing takes, a directional light that is not unit
 ///         length, a spot's cone that isn't as SpotCone says, or TextureMatrix with another form, light or camera than
 ///         it can do; nacre::Error from the shaders
 void renderFactored(ProgramLoader& loader, const RenderTarget& target, const GpuMesh& mesh, const LitView& view,

@@ -8,8 +8,12 @@
 
 #include "core/error.hpp"
 #include "shading/context.hpp"
+#include "shading/gpu_bump.hpp"
+#include "shading/shadow_map.hpp"
 
 namespace nacre {
+
+static_assert(kShadowUnit == kMaxFactoredTextures + 4 + kBumpUnits);
 
 Vec3 orthographicDirection(const Camera& camera) { return glm::normalize(camera.eye - camera.target); }
 
@@ -28,6 +32,10 @@ ShaderDefines withLights(ShaderDefines defines, std::span<const Light> lights) {
     const auto isSpot = [](const Light& light) { return light.cone.has_value(); };
     if (std::any_of(lights.begin(), lights.end(), isSpot)) defines.emplace_back("NACRE_LIGHT_CONES", "1");
     return defines;
+}
+
+ShaderDefines withLights(ShaderDefines defines, const LitView& view) {
+    return joined(withLights(std::move(defines), view.lights), shadowDefines(view.shadows, view.lights));
 }
 
 ShaderDefines joined(ShaderDefines first, const ShaderDefines& second) {
@@ -61,6 +69,7 @@ void setLights(const Program& program, const LitView& view) {
     program.set("nacre_light_color", colors);
     program.set("nacre_light_cone", cones);
     program.set("nacre_ambient", glm::vec3(view.ambient));
+    bindShadows(program, view.shadows, kShadowUnit);
 }
 
 static bool mirrors(const glm::dmat4& toWorld) { return glm::determinant(glm::dmat3(toWorld)) < 0; }

@@ -12,12 +12,18 @@ Vec3 orthographicDirection(const Camera& camera);  ///< towards the viewer, unit
 void checkLights(std::span<const Light> lights, int most);
 /// Adds NACRE_LIGHTS: one program for each number of lights, see bind/lights.glsl; and NACRE_LIGHT_CONES with spots.
 ShaderDefines withLights(ShaderDefines defines, std::span<const Light> lights);
+/// The same, and those of the lights' shadow maps.
+ShaderDefines withLights(ShaderDefines defines, const LitView& view);
 /// One list after the other.
 ShaderDefines joined(ShaderDefines first, const ShaderDefines& second);
 
-/// Uniforms of nacre/bind/view.glsl and lights.glsl. Leave `program` in use.
+/// Uniforms of nacre/bind/view.glsl, lights.glsl and shadows.glsl; binds shadow maps from kShadowUnit. Leave `program`
+/// in use.
 void setView(const Program& program, const Camera& camera, const RenderTarget& target);
 void setLights(const Program& program, const LitView& view);
+
+/// Texture units after a BRDF's, three maps and a table of a surrounding, and a relief's.
+inline constexpr int kShadowUnit = 13;
 
 /// Uniforms of nacre/bind/model.glsl. Leaves `program` in use. \throws std::invalid_argument unless toWorld is finite
 void setModel(const Program& program, const glm::dmat4& toWorld);

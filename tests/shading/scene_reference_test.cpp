@@ -43,10 +43,34 @@ protected:
     ProgramLoader loader_;
 };
 
-TEST_F(SceneReference, FullSceneIsNear) {
-    const ImageDifference d = compare(test::fullScene(), {}, {}, "full");
-    EXPECT_GT(d.psnrSrgb, 30);
-    std::printf("psnr %.2f relative %.4f\n", d.psnrSrgb, d.relative);
+TEST_F(SceneReference, PartsAreNear) {
+    struct Case {
+        const char* words;
+        SceneParts parts;
+        SceneSwitches on;
+    };
+    std::vector<Case> cases(8);
+    cases[0] = {"all", {}, {}};
+    cases[1] = {"no relief", {}, {}};
+    cases[1].parts.relief = cases[1].on.relief = false;
+    cases[2] = {"no relief, no surrounding", {}, {}};
+    cases[2].parts.relief = cases[2].on.relief = cases[2].parts.surrounding = cases[2].on.surrounding = false;
+    cases[3] = {"no indirect", {}, {}};
+    cases[3].parts.indirect = cases[3].on.indirect = false;
+    cases[4] = {"no indirect, no relief shadow", {}, {}};
+    cases[4].parts.indirect = cases[4].on.indirect = cases[4].parts.reliefShadow = false;
+    cases[4].on.reliefShadow = BumpShadow::None;
+    cases[5] = {"no lamps", {}, {}};
+    cases[5].parts.lamps = cases[5].on.lamps = false;
+    cases[6] = {"no surrounding", {}, {}};
+    cases[6].parts.surrounding = cases[6].on.surrounding = false;
+    cases[7] = {"no surrounding, no indirect", {}, {}};
+    cases[7].parts.surrounding = cases[7].on.surrounding = cases[7].parts.indirect = cases[7].on.indirect = false;
+    for (const Case& c : cases) {
+        const ImageDifference d = compare(test::fullScene(), c.parts, c.on, c.words);
+        EXPECT_GT(d.psnrSrgb, 30) << c.words;
+        std::printf("%-30s psnr %.2f relative %.4f\n", c.words, d.psnrSrgb, d.relative);
+    }
 }
 
 }  // namespace

@@ -107,6 +107,25 @@ std::vector<ShaderDefines> bumpChoices() {
         {on}};
 }
 
+/// Every kind of map, for one light each; and eight at once.
+std::vector<ShaderDefines> shadowChoices() {
+    std::vector<ShaderDefines> out;
+    ShaderDefines all{{"NACRE_SHADOWS", "1"}};
+    const char* kinds[] = {"SPOT", "DIRECTIONAL", "CUBE", "DUAL_PARABOLOID"};
+    for (int i = 0; i < 8; ++i) {
+        const std::string kind = std::string("NACRE_SHADOW_") + kinds[i % 4], at = std::to_string(i);
+        const auto add = [&](ShaderDefines& to, const std::string& light) {
+            to.insert(to.end(), {{"NACRE_SHADOW_" + light, kind},
+                                 {"NACRE_SHADOW_N_" + light, std::to_string(1 + i % 5)},
+                                 {"NACRE_SHADOW_C_" + light, "3"}});
+        };
+        add(all, at);
+        if (i < 4) add(out.emplace_back(ShaderDefines{{"NACRE_SHADOWS", "1"}}), "0");
+    }
+    out.push_back(all);
+    return out;
+}
+
 /// Each of `first` with each of `second`.
 std::vector<ShaderDefines> combined(const std::vector<ShaderDefines>& first, const std::vector<ShaderDefines>& second) {
     std::vector<ShaderDefines> out;
@@ -130,6 +149,7 @@ std::vector<ShaderDefines> choicesFor(const std::string& file) {
     if (file == "nacre/bind/bump.glsl") return bumpChoices();
     if (file == "nacre/bind/lamps.glsl")  // a table, and a microfacet model for the roughness
         return combined({factoredChoices().front(), directBrdf(makeModel("ggx"))->defines()}, bumpChoices());
+    if (file == "nacre/bind/shadows.glsl") return shadowChoices();
     if (file == "nacre/prefilter.glsl") return prefilterChoices();
     return {{}};
 }
@@ -165,6 +185,9 @@ std::vector<ProgramCase> programs() {
     spots.emplace_back("NACRE_LIGHT_CONES", "1");
     out.push_back({"lit.vert.glsl", "lit.frag.glsl", {spots}});
     out.push_back({"lit_vertex.vert.glsl", "lit_vertex.frag.glsl", {spots, brdfs.front(), brdfs.back()}});
+    out.push_back({"lit.vert.glsl", "lit.frag.glsl", combined({brdfs.front()}, shadowChoices())});
+    out.push_back({"lit.vert.glsl", "shadow_mask.frag.glsl", shadowChoices()});
+    out.push_back({"shadow_map.vert.glsl", "shadow_map.frag.glsl", {{}, {{"NACRE_SHADOW_PARABOLOID", "1"}}}});
     std::vector<ShaderDefines> matrix;
     for (ShaderDefines defines : factoredChoices())
         if (defines[0].second == "NACRE_FORM_COSINE" || defines[0].second == "NACRE_FORM_TANGENT") {

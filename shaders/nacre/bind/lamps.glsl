@@ -5,6 +5,7 @@
 #include "nacre/bind/brdf.glsl"
 #include "nacre/bind/bump.glsl"
 #include "nacre/bind/lights.glsl"
+#include "nacre/bind/shadows.glsl"
 #include "nacre/frame.glsl"
 #include "nacre/light.glsl"
 
@@ -16,17 +17,27 @@ vec3 nacre_lamps(NacreBump point, vec3 to_eye, vec3 position) {
 #endif
     vec3 wo = nacre_to_local(point.frame, to_eye);
     vec3 sum = vec3(0.0);
+#ifdef NACRE_SHADOWS
+    vec3 shadow_normal = nacre_shadow_normal(position, to_eye);
+#endif
     for (int i = 0; i < NACRE_LIGHT_COUNT; ++i) {
         vec4 light = nacre_light_position[i];
         vec3 to_light = nacre_direction_to(light, position);
         vec3 wi = nacre_to_local(point.frame, to_light);
         float lit = nacre_bump_lit(point, to_light);
-        if (wi.z > 0.0 && wo.z > 0.0 && lit > 0.0)
-            sum += nacre_brdf(wi, wo) * (lit * wi.z * nacre_light_share(i, to_light, position)) * nacre_light_color[i];
+        bool direct = wi.z > 0.0 && wo.z > 0.0 && lit > 0.0;
+        bool indirect = false;
 #ifdef NACRE_BUMP_INDIRECT
-        if (i == NACRE_BUMP_INDIRECT && wo.z > 0.0 && dot(point.mesh[2], to_light) > 0.0)
-            sum += point.indirect * nacre_light_color[i] * nacre_light_share(i, to_light, position);
+        indirect = i == NACRE_BUMP_INDIRECT && wo.z > 0.0 && dot(point.mesh[2], to_light) > 0.0;
 #endif
+        if (direct || indirect) {
+            vec3 arrives = nacre_light_color[i] * nacre_light_share(i, to_light, position);
+#ifdef NACRE_SHADOWS
+            arrives *= nacre_shadow_lit(i, position, shadow_normal);
+#endif
+            if (direct) sum += nacre_brdf(wi, wo) * (lit * wi.z) * arrives;
+            if (indirect) sum += point.indirect * arrives;
+        }
     }
     return sum;
 }

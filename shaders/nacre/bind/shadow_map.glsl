@@ -1,0 +1,10 @@
+// Drawing a light's depth map. C++: ShadowMap::update (shading/shadow_map.cpp).
+#ifndef NACRE_BIND_SHADOW_MAP_GLSL
+#define NACRE_BIND_SHADOW_MAP_GLSL
+
+uniform mat4 nacre_shadow_from_mesh;  // into the layer's light space
+uniform mat4 nacre_shadow_to_clip;    // of that; not for paraboloids
+uniform vec4 nacre_shadow_drawn;      // depth of 0, 1 / (that of 1 less that), scale of a paraboloid, edge [texels]
+uniform int nacre_shadow_bits;        // 16 or 32
+
+#endif

@@ -1,0 +1,220 @@
+#include "shading/shadow_map.hpp"
+
+#include <epoxy/gl.h>
+#include <fmt/format.h>
+
+#include <array>
+
+#include "core/error.hpp"
+#include "shading/context.hpp"
+#include "shading/pass_state.hpp"
+
+namespace nacre {
+namespace {
+
+constexpr const char* kKinds[] = {"NACRE_SHADOW_SPOT", "NACRE_SHADOW_DIRECTIONAL", "NACRE_SHADOW_CUBE",
+                                  "NACRE_SHADOW_DUAL_PARABOLOID"};
+
+/// Culls what the options don't draw. Seen from the light, matrices that mirror turn front faces over.
+void setFaces(SceneShadow::Faces faces, const glm::dmat4& toWorld) {
+    glFrontFace(glm::determinant(glm::dmat3(toWorld)) < 0 ? GL_CW : GL_CCW);
+    if (faces == SceneShadow::Faces::Both) {
+        glDisable(GL_CULL_FACE);
+        return;
+    }
+    glEnable(GL_CULL_FACE);
+    glCullFace(faces == SceneShadow::Faces::Front ? GL_BACK : GL_FRONT);
+}
+
+class Dither {  // may move the codes of 16 bits
+public:
+    Dither() : on_(glIsEnabled(GL_DITHER)) { glDisable(GL_DITHER); }
+    ~Dither() {
+        if (on_) glEnable(GL_DITHER);
+    }
+    Dither(const Dither&) = delete;
+    Dither& operator=(const Dither&) = delete;
+
+private:
+    GLboolean on_;
+};
+
+void setLayer(const Program& program, const ShadowView& view, int bits, int layer) {
+    const bool paraboloid = view.kind == ShadowKind::DualParaboloid;
+    if (!paraboloid) program.set("nacre_shadow_to_clip", glm::mat4(shadowClip(view, layer)));
+    program.set("nacre_shadow_drawn", glm::vec4(Vec4(view.near, 1 / (view.far - view.near), view.scale, view.size)));
+    program.set("nacre_shadow_bits", bits);
+}
+
+void drawCasters(const Program& program, const ShadowView& view, int layer, const ShadowScene& scene,
+                 SceneShadow::Faces faces) {
+    const glm::dmat4 toLight = glm::dmat4(shadowLayerFrame(view, layer)) * view.fromWorld;
+    for (const ShadowCaster& caster : scene.casters) {
+        program.set("nacre_shadow_from_mesh", glm::mat4(toLight * caster.toWorld));
+        setFaces(faces, caster.toWorld);
+        caster.mesh->draw();
+    }
+}
+
+bool fits(const Light& light, ShadowKind kind) { return light.directional == (kind == ShadowKind::Directional); }
+
+}  // namespace
+
+void ShadowMap::allocate(int layers) {
+    if (texture_ && layers_ == layers) return;
+    const bool half = options_.bits == 16;
+    const int size = options_.size;
+    TextureName texture;
+    glBindTexture(GL_TEXTURE_2D_ARRAY, texture.name());
+    glTexImage3D(GL_TEXTURE_2D_ARRAY, 0, half ? GL_RG8 : GL_R32F, size, size, layers, 0, half ? GL_RG : GL_RED,
+                 half ? GL_UNSIGNED_BYTE : GL_FLOAT, nullptr);
+    glTexParameteri(GL_TEXTURE_2D_ARRAY, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
+    glTexParameteri(GL_TEXTURE_2D_ARRAY, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
+    glTexParameteri(GL_TEXTURE_2D_ARRAY, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
+    glTexParameteri(GL_TEXTURE_2D_ARRAY, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
+    glBindTexture(GL_TEXTURE_2D_ARRAY, 0);
+    Renderbuffer depth;
+    glBindRenderbuffer(GL_RENDERBUFFER, depth.name());
+    glRenderbufferStorage(GL_RENDERBUFFER, GL_DEPTH_COMPONENT24, size, size);
+    glBindRenderbuffer(GL_RENDERBUFFER, 0);
+    FramebufferName framebuffer;
+    glBindFramebuffer(GL_FRAMEBUFFER, framebuffer.name());
+    glFramebufferTextureLayer(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, texture.name(), 0, 0);
+    glFramebufferRenderbuffer(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_RENDERBUFFER, depth.name());
+    const GLenum status = glCheckFramebufferStatus(GL_FRAMEBUFFER);
+    glBindFramebuffer(GL_FRAMEBUFFER, 0);
+    const std::string what = fmt::format("shadow map of {} x {} x {}, {} bits", size, size, layers, options_.bits);
+    checkGl(what);
+    if (status != GL_FRAMEBUFFER_COMPLETE)
+        throw Error(
+            fmt::format("{}: expected a complete framebuffer (OpenGL ES needs EXT_color_buffer_float for 32 "
+                        "bits), found status 0x{:04x}",
+                        what, status));
+    texture_ = std::move(texture);
+    depth_ = std::move(depth);
+    framebuffer_ = std::move(framebuffer);
+    layers_ = layers;
+}
+
+void ShadowMap::update(ProgramLoader& loader, const Light& light, const ShadowScene& scene) {
+    for (const ShadowCaster& caster : scene.casters) require(caster.mesh != nullptr, "shadow map: a caster is null");
+    const ShadowView view = fitShadow(options_, light, scene.bounds, scene.camera, scene.aspect);
+    ShaderDefines defines;
+    if (view.kind == ShadowKind::DualParaboloid) defines.emplace_back("NACRE_SHADOW_PARABOLOID", "1");
+    const Program& program = loader.load("shadow_map.vert.glsl", "shadow_map.frag.glsl", defines);
+    allocate(view.layers());
+    view_ = view;
+    const Dither off;
+    glBindFramebuffer(GL_FRAMEBUFFER, framebuffer_->name());
+    glViewport(0, 0, view.size, view.size);
+    glEnable(GL_DEPTH_TEST);
+    glDepthFunc(GL_LESS);
+    glDepthMask(GL_TRUE);
+    glDisable(GL_BLEND);
+    glClearColor(1, 1, 1, 1);
+    for (int layer = 0; layer < layers_; ++layer) {
+        glFramebufferTextureLayer(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, texture_->name(), 0, layer);
+        glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
+        setLayer(program, view, options_.bits, layer);
+        drawCasters(program, view, layer, scene, options_.faces);
+    }
+    glDisable(GL_CULL_FACE);
+    glFrontFace(GL_CCW);
+    glBindFramebuffer(GL_FRAMEBUFFER, 0);
+    checkGl("drawing a shadow map");
+}
+
+std::size_t ShadowMap::bytes() const {
+    return static_cast<std::size_t>(layers_) * static_cast<std::size_t>(options_.size) *
+           static_cast<std::size_t>(options_.size) * (options_.bits == 16 ? 2 : 4);
+}
+
+std::vector<Image> ShadowMap::download() const {
+    require(drawn(), "shadow map: nothing drawn yet");
+    const std::size_t texels = static_cast<std::size_t>(options_.size) * static_cast<std::size_t>(options_.size);
+    std::vector<float> all(2 * texels * static_cast<std::size_t>(layers_));
+    glBindTexture(GL_TEXTURE_2D_ARRAY, texture_->name());
+    glPixelStorei(GL_PACK_ALIGNMENT, 1);
+    glGetTexImage(GL_TEXTURE_2D_ARRAY, 0, GL_RG, GL_FLOAT, all.data());
+    glBindTexture(GL_TEXTURE_2D_ARRAY, 0);
+    checkGl("reading a shadow map");
+    std::vector<Image> out;
+    for (std::size_t layer = 0, at = 0; layer < static_cast<std::size_t>(layers_); ++layer) {
+        Image& image = out.emplace_back(options_.size, options_.size, 1);
+        for (float& depth : image.data()) {
+            depth = options_.bits == 16 ? (65280 * all[at] + 255 * all[at + 1]) / 65535 : all[at];
+            at += 2;
+        }
+    }
+    return out;
+}
+
+ShaderDefines shadowDefines(std::span<const ShadowMap* const> shadows, std::span<const Light> lights) {
+    if (shadows.empty()) return {};
+    require(
+        shadows.size() == lights.size() && shadows.size() <= kMaxShadows,
+        fmt::format("shadows: expected none or one for each of {} lights, found {}", lights.size(), shadows.size()));
+    std::vector<const ShadowView*> views;
+    for (std::size_t i = 0; i < shadows.size(); ++i) {
+        views.push_back(nullptr);
+        if (shadows[i] == nullptr) continue;
+        require(shadows[i]->drawn(), "shadows: a map was not drawn yet");
+        views.back() = &shadows[i]->view();
+        require(fits(lights[i], views.back()->kind),
+                fmt::format("shadows: light {} is of another kind than its map", i));
+    }
+    return shadowDefines(views);
+}
+
+ShaderDefines shadowDefines(std::span<const ShadowView* const> views) {
+    ShaderDefines out;
+    for (std::size_t i = 0; i < views.size(); ++i) {
+        if (views[i] == nullptr) continue;
+        if (out.empty()) out.emplace_back("NACRE_SHADOWS", "1");
+        out.emplace_back(fmt::format("NACRE_SHADOW_{}", i), kKinds[static_cast<std::size_t>(views[i]->kind)]);
+        out.emplace_back(fmt::format("NACRE_SHADOW_N_{}", i), std::to_string(views[i]->filter));
+        out.emplace_back(fmt::format("NACRE_SHADOW_C_{}", i), std::to_string(views[i]->cascades.size()));
+    }
+    return out;
+}
+
+void bindShadows(const Program& program, std::span<const ShadowMap* const> shadows, int firstUnit) {
+    std::array<glm::mat4, kMaxShadows> fromWorld{};
+    std::array<glm::vec4, kMaxShadows> ranges{}, sizes{};
+    std::array<glm::vec4, 4 * kMaxShadows> cascades{};
+    bool any = false;
+    for (std::size_t i = 0; i < shadows.size(); ++i) {
+        if (shadows[i] == nullptr) continue;
+        any = true;
+        const ShadowView& view = shadows[i]->view();
+        fromWorld[i] = glm::mat4(view.fromWorld);
+        ranges[i] = glm::vec4(Vec4(view.near, view.far - view.near, view.resolution, view.bias.value_or(-1)));
+        const bool half = shadows[i]->options().bits == 16;
+        sizes[i] = half ? glm::vec4(view.size, view.scale, 65280.0f / 65535, 255.0f / 65535)
+                        : glm::vec4(view.size, view.scale, 1, 0);
+        for (std::size_t k = 0; k < view.cascades.size(); ++k) cascades[4 * i + k] = glm::vec4(view.cascades[k], 0);
+        const int unit = firstUnit + static_cast<int>(i);
+        glActiveTexture(GL_TEXTURE0 + static_cast<GLenum>(unit));
+        glBindTexture(GL_TEXTURE_2D_ARRAY, shadows[i]->texture_->name());
+        program.set(fmt::format("nacre_shadow_map{}", i), unit);
+    }
+    if (!any) return;
+    program.set("nacre_shadow_from_world", fromWorld);
+    program.set("nacre_shadow_range", ranges);
+    program.set("nacre_shadow_size", sizes);
+    program.set("nacre_shadow_cascades", cascades);
+}
+
+void renderShadowMask(ProgramLoader& loader, const RenderTarget& target, const GpuMesh& mesh, const Camera& camera,
+                      const ShadowMap& shadow, const glm::dmat4& toWorld) {
+    const ShadowMap* const shadows[] = {&shadow};
+    Light light;
+    light.directional = shadow.drawn() && shadow.view().kind == ShadowKind::Directional;
+    const Program& program =
+        loader.load("lit.vert.glsl", "shadow_mask.frag.glsl", shadowDefines(shadows, std::span(&light, 1)));
+    bindShadows(program, shadows, 0);
+    setView(program, camera, target);
+    drawMesh(program, target, mesh, toWorld);
+}
+
+}  // namespace nacre
