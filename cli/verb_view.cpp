@@ -29,7 +29,9 @@ fs::path viewerProgram() {
     throw Error(fmt::format("view: expected the viewer nacre_view, found none; tried: {}", tried));
 }
 
-void runViewer(const std::vector<std::string>& words) {
+void runViewer(std::vector<std::string> words, const std::string& file) {
+    words.emplace_back("--");  // whatever the name starts with
+    words.push_back(file);
     const fs::path program = viewerProgram();
     std::vector<char*> argv = {const_cast<char*>(program.c_str())};
     for (const std::string& word : words) argv.push_back(const_cast<char*>(word.c_str()));
@@ -43,6 +45,7 @@ void runViewer(const std::vector<std::string>& words) {
 
 Verb viewVerb(Context&) {
     const auto words = std::make_shared<std::vector<std::string>>();
+    const auto file = std::make_shared<std::string>();
     const auto pass = [words](const char* flag) {
         return [words, flag](const std::string& text) {
             words->emplace_back(flag);
@@ -57,12 +60,7 @@ Verb viewVerb(Context&) {
         "Drag to orbit, wheel to zoom, F1 for all keys. The panel changes materials, lights and methods, and compares\n"
         "with the ray-traced reference. Scenes, shaders and baked assets are read again when their files change.";
     verb.options = {
-        {"file", "FILE", "Scene (.json, .gltf, .glb) or mesh (.obj, .ply, .off)",
-         [words](const std::string& text) {
-             words->emplace_back("--file");
-             words->push_back(text);
-         },
-         true},
+        {"file", "FILE", "Scene (.json, .gltf, .glb) or mesh (.obj, .ply, .off)", into(*file), true},
         {"--size", "WxH", "Of the picture, beside the panel (default 800x600)", pass("--size")},
         {"--samples", "N", "Samples a pixel, 1 to 16 (default 1)", pass("--samples")},
         {"--white", "L", "Radiance shown as white (default: fitted to the first picture)", pass("--white")},
@@ -74,7 +72,7 @@ Verb viewVerb(Context&) {
         {"--no-panel", "", "Without the panel (Tab brings it)", passFlag("--no-panel")},
         {"--benchmark", "N", "Draw N frames, print their times as JSON, and close", pass("--benchmark")},
         {"--trace", "", "One JSON line on standard output for each frame shown", passFlag("--trace")}};
-    verb.run = [words] { runViewer(*words); };
+    verb.run = [words, file] { runViewer(*words, *file); };
     return verb;
 }
 

@@ -222,6 +222,11 @@ private:
                                {"screenshot", screenshot_},
                                {"problems", session_.problems()}};
         line.update(nlohmann::json::parse("{" + cameraText(session_.camera) + "}"));
+        for (const SceneNode& node : session_.scene().nodes) line["materials"].push_back(node.material);
+        for (const SceneLight& light : session_.scene().lights) {
+            const Vec3& p = light.light.position;
+            line["lights"].push_back({p.x, p.y, p.z});
+        }
         if (const auto& d = comparison_.difference()) line["psnr"] = d->psnrSrgb;
         std::printf("%s\n", line.dump().c_str());
         std::fflush(stdout);

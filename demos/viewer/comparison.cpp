@@ -6,7 +6,8 @@ namespace nacre {
 
 /// A view that rests for this long is traced.
 constexpr std::chrono::milliseconds kRest(300);
-constexpr int kSamples = 4;
+/// n × n places a pixel, the same ones in picture and reference: what differs is neither's aliasing.
+constexpr int kRays = 2;
 
 Comparison::Comparison(ReferenceTracer tracer, std::function<void()> woken, int passes, int scale)
     : tracer_(std::move(tracer)), woken_(std::move(woken)), passes_(passes), scale_(scale) {}
@@ -27,9 +28,7 @@ void Comparison::stop() {
 
 void Comparison::start(ViewerSession& session) {
     const int width = std::max(1, session.width() / scale_), height = std::max(1, session.height() / scale_);
-    // Smooth edges on both sides, whatever the window has: else silhouettes are most of the difference.
-    const int samples = std::max(kSamples, session.options().samples);
-    own_ = session.pictureOf(width, height, samples);
+    own_ = session.pictureOf(width, height, kRays);
     job_ = std::make_unique<ReferenceJob>(
         tracer_, ReferenceView{session.scene(), session.camera, session.time, session.switches, width, height}, passes_,
         woken_);

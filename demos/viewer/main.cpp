@@ -36,8 +36,7 @@ int run(int argc, char** argv) {
     std::string size;
     double white = 0;
     bool noPanel = false;
-    cli.add_option("file,--file", options.file, "Scene (.json, .gltf, .glb) or mesh (.obj, .ply, .off, ...)")
-        ->required();
+    cli.add_option("file", options.file, "Scene (.json, .gltf, .glb) or mesh (.obj, .ply, .off, ...)")->required();
     cli.add_option("--size", size, "Of the picture, beside the panel (default 800x600)")->type_name("WxH");
     cli.add_option("--samples", options.samples, "Samples a pixel (default 1)")->check(CLI::Range(1, 16));
     cli.add_option("--white", white, "Radiance shown as white (default: fitted to the first picture)")

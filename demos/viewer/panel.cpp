@@ -81,7 +81,7 @@ void animationSection(ViewerSession& session) {
 
 void timesSection(ViewerSession& session, PanelState& state) {
     session.timing = true;
-    for (const PassTime& pass : session.renderer().passes()) {
+    for (const PassTime& pass : session.passes()) {
         const double now = std::isfinite(pass.gpuSeconds) ? pass.gpuSeconds : pass.wallSeconds;
         double& kept = state.passTimes.try_emplace(pass.name, now).first->second;
         kept += 0.1 * (now - kept);

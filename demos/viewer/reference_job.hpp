@@ -18,7 +18,8 @@ struct ReferenceView {
     Camera camera;
     double time = 0;
     SceneSwitches switches;
-    int width = 0, height = 0, samples = 1;
+    int width = 0, height = 0;
+    int rays = 1;       ///< n × n a pixel, on a regular grid
     int materials = 0;  ///< version of what the scene's materials and assets are: same number, same truths
 };
 

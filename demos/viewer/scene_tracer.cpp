@@ -41,7 +41,7 @@ ReferenceTracer sceneTracer(unsigned threads) {
         SceneTraceOptions options;
         options.width = view.width;
         options.height = view.height;
-        options.supersample = view.samples > 1 ? 2 : 1;
+        options.supersample = view.rays;
         options.time = view.time;
         options.seed = static_cast<std::uint64_t>(pass) + 1;
         options.threads = threads;

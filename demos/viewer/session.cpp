@@ -95,6 +95,7 @@ void ViewerSession::drawOnce() {
     const auto begin = std::chrono::steady_clock::now();
     renderer_->render(sizedTarget(), camera, time);
     glFinish();
+    passes_ = renderer_->passes();
     seconds_ = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
     ++pictures_;
 }
@@ -105,12 +106,21 @@ bool ViewerSession::draw() {
     return attempt("picture", [&] { drawOnce(); });
 }
 
-Image ViewerSession::pictureOf(int width, int height, int samples) {
-    const RenderTarget other({.width = width, .height = height, .samples = samples});
+Image ViewerSession::pictureOf(int width, int height, int n) {
+    require(width >= 1 && height >= 1 && n >= 1, "pictureOf: sizes must be >= 1");
+    const RenderTarget other({.width = n * width, .height = n * height});
     renderer_->switches = switches;
     renderer_->setTiming(false);
     renderer_->render(other, camera, time);
-    return other.read();
+    const Image fine = other.read();
+    Image out(width, height, 3);
+    for (int y = 0; y < height; ++y)
+        for (int x = 0; x < width; ++x) {
+            Rgb sum(0);
+            for (int k = 0; k < n * n; ++k) sum += fine.rgb(n * x + k % n, n * y + k / n);
+            out.setRgb(x, y, sum / double(n * n));
+        }
+    return out;
 }
 
 bool ViewerSession::attempt(const std::string& about, const std::function<void()>& work) {

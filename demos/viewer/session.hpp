@@ -40,7 +40,7 @@ public:
     double time = 0;  ///< of the animation [s]
     bool playing = false;
     SceneSwitches switches;
-    bool timing = false;  ///< passes() of the renderer
+    bool timing = false;  ///< passes() are measured
     void touch() { ++revision_; }
     /// Grows with everything that changes the picture.
     int revision() const { return revision_; }
@@ -66,8 +66,10 @@ public:
     const RenderTarget* target() const { return target_ ? &*target_ : nullptr; }
     int pictures() const { return pictures_; }   ///< drawn so far
     double seconds() const { return seconds_; }  ///< that the last one took
-    /// The same view in another size.
-    Image pictureOf(int width, int height, int samples);
+    /// The same view in another size, drawn n × n times as large and averaged.
+    Image pictureOf(int width, int height, int n);
+    /// What the parts of the last picture took, with timing on.
+    const std::vector<PassTime>& passes() const { return passes_; }
 
     // Edits. Each one that fails leaves everything as it was, and its reason among the problems.
     bool setLight(std::size_t light, const SceneLight& value);
@@ -108,6 +110,7 @@ private:
     std::map<std::string, std::string> problems_;
     int width_ = 0, height_ = 0, revision_ = 1, materials_ = 1, drawn_ = 0, pictures_ = 0;
     double seconds_ = 0;
+    std::vector<PassTime> passes_;
 };
 
 /// Writes `image` as PNG and EXR into `folder`, named by the time: nacre-20260131-235959.png, with -2, … when taken.

@@ -47,6 +47,7 @@ TEST(CommandUsage, HelpOfEveryVerbGoesToStandardOutput) {
                                                   {"eval", "--help"},
                                                   {"models", "--help"},
                                                   {"methods", "--help"},
+                                                  {"view", "--help"},
                                                   {"--help-all"},
                                                   {"--version"}}) {
         const Outcome outcome = nacre(words);

@@ -158,6 +158,18 @@ TEST_F(Session, ScreenshotsDontOverwriteEachOther) {
     EXPECT_THAT(tests::messageOf<Error>([&] { writeScreenshot(image, scratch_ / "absent", 1); }), HasSubstr("absent"));
 }
 
+TEST_F(Session, APictureOfAnotherSizeIsTheMeanOfALargerOne) {
+    ViewerSession session = open();
+    const Image fine = session.pictureOf(48, 32, 1), mean = session.pictureOf(24, 16, 2);
+    EXPECT_EQ(fine.data(), pixels(session));
+    for (int i = 0; i < 24 * 16; ++i) {
+        const int x = i % 24, y = i / 24;
+        const Rgb sum = fine.rgb(2 * x, 2 * y) + fine.rgb(2 * x + 1, 2 * y) + fine.rgb(2 * x, 2 * y + 1) +
+                        fine.rgb(2 * x + 1, 2 * y + 1);
+        EXPECT_LT(glm::length(mean.rgb(x, y) - 0.25 * sum), 1e-6) << i;
+    }
+}
+
 TEST_F(Session, AMissingFileIsNamed) {
     EXPECT_THAT(tests::messageOf<Error>([&] {
                     ViewerSession({scratch_ / "absent.json", {}, 1});

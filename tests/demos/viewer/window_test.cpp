@@ -5,10 +5,13 @@
 #include "core/error.hpp"
 #include "core/file.hpp"
 #include "core/image_file.hpp"
+#include "demos/viewer/light_drag.hpp"
 #include "demos/viewer/orbit.hpp"
+#include "demos/viewer/scene_edits.hpp"
 #include "demos/viewer/session.hpp"
 #include "shading/context.hpp"
 #include "shading/image_output.hpp"
+#include "shading/scene_file.hpp"
 #include "tests/demos/viewer/display.hpp"
 
 namespace nacre {
@@ -120,12 +123,42 @@ TEST_F(ViewerWindow, KeysAndWheelDoWhatTheHelpSays) {
     viewer.until([&](const json& line) { return glm::length(eyeOf(line)) < 0.91 * glm::length(eyeOf(first)); });
     display.send({"key", "Home"});
     viewer.until([&](const json& line) { return eyeOf(line) == eyeOf(first); });
-    display.send({"click", "1"});  // on the hole's rim or through it: whatever is hit has no other mesh beside it
     display.send({"key", "Tab"});
     const json panel = viewer.until([](const json& line) { return line["panel"] == true && settled(line); });
     EXPECT_GT(panel["origin"], 0);
     display.send({"key", "Escape"});
     EXPECT_EQ(viewer.code(), 0);
+}
+
+TEST_F(ViewerWindow, AClickChoosesAMeshAndControlDragTurnsTheLight) {
+    const Display display;
+    Viewer viewer(display, words());
+    const json first = viewer.until(settled);
+    EXPECT_EQ(first["node"], -1);
+    const SceneDescription scene = readScene(file());
+    Vec2 pixel(0, kHeight / 2 + 0.5);
+    while (nodeAt(scene, nodeTransforms(scene, 0), scene.camera, pixel + Vec2(4, 0), {kWidth, kHeight}) < 0) ++pixel.x;
+    const auto at = [&](double x, double y) {
+        return std::vector<std::string>{"mousemove", fmt::format("{:.0f}", x + first["window"][0].get<int>()),
+                                        fmt::format("{:.0f}", y + first["window"][1].get<int>())};
+    };
+    display.send(at(pixel.x + 4, kHeight / 2));
+    display.send({"click", "1"});
+    viewer.until([](const json& line) { return line["node"] == 0; });
+    display.send({"key", "n"});  // the mesh's next material: clay comes before paint
+    viewer.until([&](const json& line) { return line["materials"] != first["materials"]; });
+
+    display.send({"keydown", "ctrl"});
+    display.send({"mousedown", "1"});
+    display.send(at(pixel.x + 34, kHeight / 2 + 10));
+    display.send({"mouseup", "1"});
+    display.send({"keyup", "ctrl"});
+    const Light sun = dragged(scene.lights[0].light, scene.camera, {30, 10}, kHeight);
+    const json turned = viewer.until([&](const json& line) {
+        const json& p = line["lights"][0];
+        return glm::length(Vec3(p[0].get<double>(), p[1].get<double>(), p[2].get<double>()) - sun.position) < 1e-9;
+    });
+    EXPECT_EQ(turned["camera"], first["camera"]);
 }
 
 TEST_F(ViewerWindow, ShowsABrokenScenesMessageAndTheLastGoodPicture) {
