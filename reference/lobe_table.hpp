@@ -20,9 +20,10 @@ struct LobeTableOptions {
     Progress progress{};
 };
 
-/// L'(r) = Σ L w(r, l) dω / Σ w dω at the centres of a cube's texels, w by lobeWeight (reference/environment_error.hpp);
-/// texels of the source further than the lobe's support are left out. Lobes too narrow for `most` come out wider:
-/// lobeTableResolution tells. \throws std::invalid_argument for a mirror, which is looked up in the source itself
+/// L'(r) = Σ L w(r, l) dω / Σ w dω at the centres of a cube's texels, w by lobeWeight
+/// (reference/environment_error.hpp); texels of the source further than the lobe's support are left out. Lobes too
+/// narrow for `most` come out wider: lobeTableResolution tells. \throws std::invalid_argument for a mirror, which is
+/// looked up in the source itself
 EnvMap tabulateLobe(const EnvMap& source, const Lobe& lobe, const LobeTableOptions& options = {});
 
 /// Texels across the lobe's width that tabulateLobe has, at most perWidth: below 3 the table is no truth.

@@ -95,8 +95,8 @@ Vec3 patchNormal(const HeightMap& map, const Vec2& p) {
 }
 
 /// Light of irradiance 1 on the plane that faces it, reflected 1 … bounces times before the point.
-Rgb bounced(const ReliefTruth& relief, const SceneRelief& options, const Vec2& at, const Vec3& normal, const Vec3& light,
-            int paths, Random& random) {
+Rgb bounced(const ReliefTruth& relief, const SceneRelief& options, const Vec2& at, const Vec3& normal,
+            const Vec3& light, int paths, Random& random) {
     const double height = heightAt(relief.map, at);
     if (std::isnan(height)) return Rgb(0);
     Rgb sum(0);
@@ -172,7 +172,7 @@ public:
 private:
     /// What is blocked of the sky that a normal sees, of rays with the cosine about it.
     struct Blocked {
-        double byRelief = 0, byAll = 0;          ///< shares
+        double byRelief = 0, byAll = 0;             ///< shares
         Rgb radianceByRelief{0}, radianceByAll{0};  ///< of the diffuse light
     };
     /// A hit, and what costs rays: found once for all pictures.
@@ -186,7 +186,7 @@ private:
         Vec3 reliefNormal{0, 0, 1};       ///< in the mesh's frame
         std::vector<int> shadowed, dark;  ///< a light: by meshes, by the relief; −1 = not asked
         std::optional<Rgb> indirect;
-        std::optional<Blocked> blocked[2];   ///< without and with the relief's normal
+        std::optional<Blocked> blocked[2];  ///< without and with the relief's normal
         std::optional<Rgb> mirrorBlocked[2];
     };
 
@@ -236,8 +236,7 @@ private:
         if (!scene_.lights[light].shadow || !scene_.nodes[p.node].receivesShadow) return false;
         if (p.shadowed[light] < 0) {
             const double length = glm::length(offset);
-            const double end =
-                lights_[light].directional ? std::numeric_limits<float>::max() : length - skip();
+            const double end = lights_[light].directional ? std::numeric_limits<float>::max() : length - skip();
             p.shadowed[light] = casters_.occluded({p.s.position, offset / length, skip(), end});
         }
         return p.shadowed[light] != 0;

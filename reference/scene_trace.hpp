@@ -17,8 +17,8 @@ struct SceneParts {
     bool indirect = true;      ///< bounced light in reliefs
     bool surrounding = true;
     bool sky = true;
-    bool bakedBrdf = false;    ///< the baked BRDF in place of the unfactored one
-    bool occlusion = false;    ///< meshes block the surrounding's light (reflected and diffuse, not transmitted)
+    bool bakedBrdf = false;  ///< the baked BRDF in place of the unfactored one
+    bool occlusion = false;  ///< meshes block the surrounding's light (reflected and diffuse, not transmitted)
 };
 
 struct SceneTraceOptions {
@@ -43,9 +43,9 @@ struct SceneTraceOptions {
 ///   surrounding  integrals of the unbaked environment over the lobe that the baked level states, exact Fresnel; minus,
 ///                of the diffuse part, what the relief blocks
 /// The last three lines' rays are random (Monte Carlo; the estimate is unbiased but for averages over 3° of what is
-/// blocked). In neither picture: light that bounces between meshes, or in reliefs from other lights and the surrounding;
-/// reliefs as seen in mirrored and refracted directions; parallax.
-/// \throws std::invalid_argument: sizes or counts < 1, truths for another number of materials, non-finite positions
+/// blocked). In neither picture: light that bounces between meshes, or in reliefs from other lights and the
+/// surrounding; reliefs as seen in mirrored and refracted directions; parallax. \throws std::invalid_argument: sizes or
+/// counts < 1, truths for another number of materials, non-finite positions
 std::vector<Image> traceScene(const SceneDescription& scene, const Camera& camera, const SceneTruths& truths,
                               const std::vector<SceneParts>& parts, const SceneTraceOptions& options = {});
 

@@ -31,7 +31,7 @@ struct OpenEnvironment {
     Radiance source, blocked;
     std::vector<Lobe> lobes;  ///< one a level
     std::optional<LevelMapping> mapping;
-    std::map<double, Radiance> tables;  ///< by lod
+    std::map<double, Radiance> tables;        ///< by lod
     std::shared_ptr<const EnvChain> standIn;  ///< the baked one, without a source
 };
 
@@ -96,7 +96,8 @@ private:
         try {
             options = heightOptionsFrom(asset(index).meta.at("input"), maps.wrap);
         } catch (const json::exception& error) {
-            throw Error(fmt::format("{}: expected 'input' to say how {} is read, found {}", file, source, error.what()));
+            throw Error(
+                fmt::format("{}: expected 'input' to say how {} is read, found {}", file, source, error.what()));
         }
         return kept = std::make_shared<const ReliefTruth>(readHeight(source, options).map);
     }

@@ -28,7 +28,7 @@ struct MaterialTruth {
     BrdfFunction brdf{};       ///< unfactored
     BrdfFunction bakedBrdf{};  ///< what the asset holds: its own share of the error; empty for models
     std::shared_ptr<const ReliefTruth> relief{};
-    SurroundedSurface surrounding{};         ///< integrals over the unbaked environment, exact weights
+    SurroundedSurface surrounding{};  ///< integrals over the unbaked environment, exact weights
     /// Radiance of the environment that `surrounding.diffuse` integrates, its factor included: what is subtracted where
     /// it is blocked. Averaged over about 3°.
     RadianceByDirection diffuseSource{};

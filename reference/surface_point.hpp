@@ -13,8 +13,8 @@ struct SurfacePoint {
     Vec2 uv{0};  ///< (0, 0) where the mesh has none
 };
 
-/// n = the interpolated normal, normalised; t = the interpolated tangent made orthogonal to n, or any perpendicular where
-/// none is left; b = w · n × t.
+/// n = the interpolated normal, normalised; t = the interpolated tangent made orthogonal to n, or any perpendicular
+/// where none is left; b = w · n × t.
 SurfacePoint surfaceAt(const Mesh& mesh, const RayHit& hit, const Vec3& toEye);
 
 /// A world direction in the point's frame.

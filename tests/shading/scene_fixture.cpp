@@ -44,7 +44,8 @@ void bake(const tests::Scratch& folder) {
     EnvChain chain;
     chain.levels = prefilter(smallSky(), levels, {}).levels;
     chain.mapping = LevelMapping{"linear", "exponent", {1e4, 40}};
-    writeAsset(describe(toAsset(chain), {{{"lobe", "mirror"}}, {{"lobe", "phong"}, {"exponent", 40}}}), folder / "sky.exr");
+    writeAsset(describe(toAsset(chain), {{{"lobe", "mirror"}}, {{"lobe", "phong"}, {"exponent", 40}}}),
+               folder / "sky.exr");
     const PrefilterLevel diffuse[] = {{{LobeKind::Diffuse}, 8}};
     const EnvChain irradiance(prefilter(smallSky(), diffuse, {}).levels.front());
     writeAsset(describe(toAsset(irradiance), {{{"lobe", "diffuse"}}}), folder / "diffuse.exr");

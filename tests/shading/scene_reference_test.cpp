@@ -31,9 +31,9 @@ protected:
         const Image picture = target.read();
         const SceneTruths truths = openTruths(scene);
         EXPECT_TRUE(truths.notes.empty()) << truths.notes.front();
-        const Image truth =
-            traceScene(scene, scene.camera, truths, {parts},
-                       {.width = kWidth, .height = kHeight, .supersample = 3, .time = 0.5}).front();
+        const Image truth = traceScene(scene, scene.camera, truths, {parts},
+                                       {.width = kWidth, .height = kHeight, .supersample = 3, .time = 0.5})
+                                .front();
         const double white = pictureWhite(truth);
         keep(picture, name + "-drawn", white);
         keep(truth, name + "-traced", white);
