@@ -95,8 +95,9 @@ static void requireKnownVerb(const std::vector<Verb>& verbs, int argc, const cha
 }
 
 static std::vector<Verb> makeVerbs(Context& context) {
-    return {factorizeVerb(context), envmapVerb(context), bumpVerb(context),   fresnelVerb(context), shVerb(context),
-            infoVerb(context),      evalVerb(context),   modelsVerb(context), methodsVerb(context)};
+    return {factorizeVerb(context), envmapVerb(context), bumpVerb(context),   fresnelVerb(context),
+            shVerb(context),        bakeVerb(context),   infoVerb(context),   evalVerb(context),
+            renderVerb(context),    viewVerb(context),   modelsVerb(context), methodsVerb(context)};
 }
 
 static int parseAndRun(int argc, const char* const* argv) {

@@ -45,6 +45,9 @@ Verb evalVerb(Context& context);
 Verb fresnelVerb(Context& context);
 Verb bumpVerb(Context& context);
 Verb shVerb(Context& context);
+Verb bakeVerb(Context& context);
+Verb renderVerb(Context& context);
+Verb viewVerb(Context& context);
 
 /// The whole command but for main. \return the exit code
 int runCommand(int argc, const char* const* argv);

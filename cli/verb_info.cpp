@@ -1,16 +1,18 @@
-// nacre info: what an asset says of itself.
+// nacre info: what an asset says of itself, and what is in a scene.
 #include <fmt/format.h>
 
 #include <memory>
 
 #include "bump/bump_asset.hpp"
 #include "cli/eval_table.hpp"
+#include "cli/scene_report.hpp"
 #include "cli/terminal.hpp"
 #include "cli/verb.hpp"
 #include "core/asset.hpp"
 #include "core/error.hpp"
 #include "envmaps/env_asset.hpp"
 #include "factorize/factored_brdf.hpp"
+#include "shading/scene_file.hpp"
 
 namespace nacre::cli {
 
@@ -69,20 +71,35 @@ static void tellUnusable(const std::string& path, const Asset& asset) {
     }
 }
 
+static void showAsset(const std::string& file, bool asJson) {
+    const Asset asset = readAsset(file);
+    putData(asJson ? asset.meta.dump(2) + "\n" : infoText(file, asset));
+    tellUnusable(file, asset);
+}
+
+static void showScene(const std::string& file, bool asJson) {
+    std::vector<std::string> notes;
+    SceneOptions options;
+    options.needAssets = false;
+    options.note = [&](const std::string& note) { notes.push_back(note); };
+    const json report = sceneReport(readScene(file, options), notes);
+    putData(asJson ? report.dump(2) + "\n" : sceneText(report));
+}
+
 Verb infoVerb(Context&) {
     struct Settings {
         std::string file;
         bool asJson = false;
     };
     const auto s = std::make_shared<Settings>();
-    Verb verb{"info", "Show what an asset says of itself: textures, source, measured error", "", {}, {}};
-    verb.options = {{"file", "FILE", "A baked asset", into(s->file), true},
-                    {"--json", "", "The asset's JSON on standard output", into(s->asJson)}};
-    verb.run = [s] {
-        const Asset asset = readAsset(s->file);
-        putData(s->asJson ? asset.meta.dump(2) + "\n" : infoText(s->file, asset));
-        tellUnusable(s->file, asset);
-    };
+    Verb verb{"info", "Show what an asset says of itself, or what is in a scene", {}, {}, {}};
+    verb.details =
+        "Of an asset: textures, source, measured error. Of a scene file, glTF or mesh: triangles, materials with what "
+        "they\n"
+        "use, lights, and assets: baked (up to date), stale, missing, or given (there, with no recipe to check it by).";
+    verb.options = {{"file", "FILE", "A baked asset, a scene or a mesh", into(s->file), true},
+                    {"--json", "", "One JSON object on standard output", into(s->asJson)}};
+    verb.run = [s] { isSceneName(s->file) ? showScene(s->file, s->asJson) : showAsset(s->file, s->asJson); };
     return verb;
 }
 

@@ -15,12 +15,17 @@ namespace nacre {
 
 namespace fs = std::filesystem;
 
-std::vector<std::uint8_t> readFile(const fs::path& path, std::uint64_t limit) {
+static void requireRegularFile(const fs::path& path) {
     std::error_code failure;
     const fs::file_status status = fs::status(path, failure);
     if (!fs::exists(status)) throw Error(fmt::format("{}: expected a file, found none", path.string()));
     if (!fs::is_regular_file(status))
         throw Error(fmt::format("{}: expected a file, found a folder or device", path.string()));
+}
+
+std::vector<std::uint8_t> readFile(const fs::path& path, std::uint64_t limit) {
+    requireRegularFile(path);
+    std::error_code failure;
     const std::uint64_t size = fs::file_size(path, failure);
     if (failure) throw Error(fmt::format("{}: can't read: {}", path.string(), failure.message()));
     if (size > limit) throw Error(fmt::format("{}: expected at most {} bytes, found {}", path.string(), limit, size));
@@ -66,9 +71,23 @@ void writeFile(const fs::path& path, std::string_view bytes) {
     });
 }
 
-std::string contentHash(std::string_view bytes) {
-    std::uint64_t hash = 0xcbf29ce484222325ull;
+static constexpr std::uint64_t kHashStart = 0xcbf29ce484222325ull;
+
+static std::uint64_t hashOn(std::uint64_t hash, std::string_view bytes) {
     for (const char byte : bytes) hash = (hash ^ static_cast<std::uint8_t>(byte)) * 0x100000001b3ull;
+    return hash;
+}
+
+std::string contentHash(std::string_view bytes) { return fmt::format("{:016x}", hashOn(kHashStart, bytes)); }
+
+std::string fileHash(const fs::path& path) {
+    requireRegularFile(path);
+    std::ifstream in(path, std::ios::binary);
+    std::vector<char> block(1 << 20);
+    std::uint64_t hash = kHashStart;
+    while (in.read(block.data(), static_cast<std::streamsize>(block.size())) || in.gcount() > 0)
+        hash = hashOn(hash, {block.data(), static_cast<std::size_t>(in.gcount())});
+    if (!in.eof()) throw Error(fmt::format("{}: can't read: {}", path.string(), std::strerror(errno)));
     return fmt::format("{:016x}", hash);
 }
 

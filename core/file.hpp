@@ -24,4 +24,7 @@ void writeFile(const std::filesystem::path& path, std::string_view bytes);
 /// FNV-1a, 64 bits, as 16 hexadecimal digits. Names a source; no protection against intent.
 std::string contentHash(std::string_view bytes);
 
+/// contentHash of a file of any size. \throws nacre::Error naming the path when it can't be read or is no regular file
+std::string fileHash(const std::filesystem::path& path);
+
 }  // namespace nacre

@@ -238,8 +238,9 @@ Vec4 JsonField::quaternion() const {
 
 int JsonField::nameIn(const JsonNames& names, const char* what) const {
     const std::string name = text();
-    const auto at = std::find(names.begin(), names.end(), name);
-    if (at == names.end()) fail(fmt::format("no {} named \"{}\"; there are {}", what, name, listed(names)));
+    const auto at = std::lower_bound(names.begin(), names.end(), name);
+    if (at == names.end() || *at != name)
+        fail(fmt::format("no {} named \"{}\"; there are {}", what, name, listed(names)));
     return static_cast<int>(at - names.begin());
 }
 

@@ -20,7 +20,7 @@ namespace nacre {
 ///         for nesting deeper than 64
 nlohmann::json parseJson(std::string_view text, const std::string& name);
 
-/// The names of a section, in the order of their indices.
+/// The names of a section in ascending order, as members() gives them; the place of a name is its index.
 using JsonNames = std::vector<std::string>;
 
 /// A value in a document. All readers throw nacre::Error: "scene.json: /materials/gold/brdf: expected …, found …".

@@ -175,6 +175,7 @@ ShadowView fitShadow(const SceneShadow& options, const Light& light, const Bound
     check(options, light, scene, camera);
     ShadowView view;
     view.size = options.size;
+    view.bits = options.bits;
     view.filter = options.filter;
     view.bias = options.bias;
     if (light.directional) {

@@ -35,6 +35,7 @@ enum class ShadowKind { Spot, Directional, Cube, DualParaboloid };
 struct ShadowView {
     ShadowKind kind = ShadowKind::Spot;
     int size = 1024;  ///< texels along an edge
+    int bits = 32;    ///< of a stored depth, 16 or 32
     int filter = 3;   ///< texels along the filter's edge; their box is filter − 1 texels wide (1: one texel)
     glm::dmat4 fromWorld{1};
     double near = 0, far = 1;    ///< [world units]

@@ -7,6 +7,7 @@ namespace nacre {
 static std::vector<NamedExhibit> allExhibits() {
     std::vector<NamedExhibit> out = environmentExhibits();
     out.insert(out.end(), bumpExhibits().begin(), bumpExhibits().end());
+    out.insert(out.end(), sceneExhibits().begin(), sceneExhibits().end());
     return out;
 }
 

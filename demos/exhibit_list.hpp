@@ -13,6 +13,8 @@ namespace nacre {
 struct ExhibitOptions {
     std::filesystem::path worldFolder;   ///< holds NAME.exr, \see demos/fetch.sh
     std::filesystem::path heightFolder;  ///< holds NAME.bmp, the same
+    std::filesystem::path sceneFolder;   ///< holds NAME.json, whose assets are baked: demos/scenes
+    std::filesystem::path volumeFolder;  ///< holds NAME.inr, \see demos/fetch.sh
     bool quick = false;                  ///< pictures of half the edge, coarser surroundings
     int timingRepeats = 5;
     Progress progress{};

@@ -34,6 +34,7 @@ struct NamedExhibit {
 };
 const std::vector<NamedExhibit>& environmentExhibits();
 const std::vector<NamedExhibit>& bumpExhibits();
+const std::vector<NamedExhibit>& sceneExhibits();
 
 /// environment_sweeps.cpp
 Exhibit ggxSweepExhibit(const Task& task);

@@ -55,7 +55,7 @@ std::string summaryTable(const Gallery& gallery) {
 std::string exhibitTable(const Gallery& gallery) {
     if (gallery.exhibits.empty()) return {};
     std::string html = "<table class=\"cards\">" +
-                       headRowHtml({"environment and bump maps", "lowest PSNR", "longest frame"}) + "<tbody>\n";
+                       headRowHtml({"exhibits", "lowest PSNR", "longest frame"}) + "<tbody>\n";
     for (const Exhibit& e : gallery.exhibits) {
         const std::optional<double> psnr = lowestPsnr(e), frame = longestFrame(e);
         html += fmt::format("<tr><td><a href=\"#{}\">{}</a></td>", e.id, escapeHtml(e.title)) +

@@ -38,6 +38,23 @@ private:
     std::uint64_t state_;
 };
 
+/// Point i of a plane sequence that fills a pixel evenly: Roberts' R2, shifted by the pixel's own numbers. Errors of a
+/// pixel's mean fall nearly as fast as its points grow, where independent ones would take their square.
+class PixelSequence {
+public:
+    PixelSequence(std::uint64_t seed, std::uint64_t pixel, std::uint64_t purpose, std::uint64_t first)
+        : shift_(Random(seed, pixel, purpose).pair()), next_(first) {}
+    Vec2 operator()() {
+        const double i = static_cast<double>(next_++);
+        const Vec2 p(shift_.x + 0.7548776662466927 * i, shift_.y + 0.5698402909980532 * i);
+        return p - glm::floor(p);
+    }
+
+private:
+    Vec2 shift_;
+    std::uint64_t next_;
+};
+
 /// d of a frame whose z is n.
 Vec3 turnedTo(const Vec3& n, const Vec3& d) {
     const Vec3 helper = std::abs(n.x) < 0.5 ? Vec3(1, 0, 0) : Vec3(0, 1, 0);
@@ -96,7 +113,7 @@ Vec3 patchNormal(const HeightMap& map, const Vec2& p) {
 
 /// Light of irradiance 1 on the plane that faces it, reflected 1 … bounces times before the point.
 Rgb bounced(const ReliefTruth& relief, const SceneRelief& options, const Vec2& at, const Vec3& normal,
-            const Vec3& light, int paths, Random& random) {
+            const Vec3& light, int paths, PixelSequence starts, Random random) {
     const double height = heightAt(relief.map, at);
     if (std::isnan(height)) return Rgb(0);
     Rgb sum(0);
@@ -104,7 +121,7 @@ Rgb bounced(const ReliefTruth& relief, const SceneRelief& options, const Vec2& a
         Vec3 p(at, height), n = normal;
         Rgb carried = options.albedo;
         for (int k = 0; k < options.bounces; ++k) {
-            const auto hit = firstHit(relief.rays, p, turnedTo(n, cosineHemisphere(random.pair())));
+            const auto hit = firstHit(relief.rays, p, turnedTo(n, cosineHemisphere(k == 0 ? starts() : random.pair())));
             if (!hit) break;
             const double cosine = glm::dot(hit->normal, light);
             if (cosine > 0 && isLit(relief.rays, Vec2(hit->point), light))
@@ -117,8 +134,7 @@ Rgb bounced(const ReliefTruth& relief, const SceneRelief& options, const Vec2& a
 }
 
 /// A direction of the lobe about r and its weight; the density is the lobe but for that.
-std::pair<Vec3, double> lobeSample(const Lobe& lobe, const Vec3& r, Random& random) {
-    const Vec2 u = random.pair();
+std::pair<Vec3, double> lobeSample(const Lobe& lobe, const Vec3& r, const Vec2& u) {
     const double phi = 2 * kPi * u.y;
     const auto about = [&](double cosine) {
         const double sine = std::sqrt(std::max(0.0, 1 - cosine * cosine));
@@ -157,13 +173,13 @@ public:
             const Ray ray = rays_.at(x, y, k);
             const Vec3 direction = glm::normalize(ray.direction);
             const RayHit hit = all_.firstHit(ray);
-            const std::uint64_t number =
-                (static_cast<std::uint64_t>(y) * options_.width + x) * rays_.samples() + static_cast<unsigned>(k);
             if (!hit.found) {
                 for (std::size_t i = 0; i < sums.size(); ++i) sums[i] += background(parts_[i], direction);
                 continue;
             }
-            Point point = pointAt(hit, -direction, number);
+            Point point = pointAt(hit, -direction);
+            point.pixel = static_cast<std::uint64_t>(y) * options_.width + x;
+            point.ray = static_cast<unsigned>(k);
             for (std::size_t i = 0; i < sums.size(); ++i) sums[i] += radiance(point, parts_[i]);
         }
         for (std::size_t i = 0; i < sums.size(); ++i) out[i].setRgb(x, y, sums[i] / double(rays_.samples()));
@@ -179,7 +195,7 @@ private:
     struct Point {
         SurfacePoint s;
         std::size_t node = 0;
-        std::uint64_t number = 0;
+        std::uint64_t pixel = 0, ray = 0;
         const SceneMaterial* material = nullptr;
         const MaterialTruth* truth = nullptr;
         Vec2 at{0};                       ///< in the relief [texels]
@@ -195,11 +211,10 @@ private:
         return truths_.sky ? truths_.sky(turn_ * direction) : scene_.sky.color;
     }
 
-    Point pointAt(const RayHit& hit, const Vec3& toEye, std::uint64_t number) const {
+    Point pointAt(const RayHit& hit, const Vec3& toEye) const {
         Point p;
         p.s = surfaceAt(world_.mesh, hit, toEye);
         p.node = world_.nodeOf(hit.triangle);
-        p.number = number;
         const auto material = static_cast<std::size_t>(scene_.nodes[p.node].material);
         p.material = &scene_.materials.at(material);
         p.truth = &truths_.materials[material];
@@ -268,27 +283,46 @@ private:
     }
     Rgb indirect(Point& p, const Vec3& local) const {
         if (!p.indirect) {
-            Random random(options_.seed, p.number, 0);
-            p.indirect = bounced(*p.truth->relief, *p.material->relief, p.at, p.reliefNormal, local,
-                                 options_.indirectPaths, random);
+            const std::uint64_t number = p.pixel * static_cast<unsigned>(rays_.samples()) + p.ray;
+            p.indirect =
+                bounced(*p.truth->relief, *p.material->relief, p.at, p.reliefNormal, local, options_.indirectPaths,
+                        sequence(p, 0, options_.indirectPaths), Random(options_.seed, number, 3));
         }
         return *p.indirect;
+    }
+
+    /// `count` points a ray, those of a pixel's rays one after the other.
+    PixelSequence sequence(const Point& p, std::uint64_t purpose, int count) const {
+        return {options_.seed, p.pixel, purpose, p.ray * static_cast<unsigned>(count)};
     }
 
     const Blocked& blocked(Point& p, const Vec3& normal, bool relief) const {
         std::optional<Blocked>& kept = p.blocked[relief];
         if (kept) return *kept;
-        Random random(options_.seed, p.number, 1);
         const int rays = occlusion_ ? std::max(options_.skyRays, options_.occlusionRays) : options_.skyRays;
+        PixelSequence next = sequence(p, 1, rays);
+        const BrightTexels* bright = p.truth->diffuseSource.get();
         Blocked sum;
         for (int i = 0; i < rays; ++i) {
-            const Vec3 d = turnedTo(normal, cosineHemisphere(random.pair())), local = toLocal(p.s, d);
+            // Half of the rays with the cosine, half where the surrounding is bright: weighted as one mixture
+            // (Veach & Guibas 1995, balance heuristic).
+            const bool towardsLight = bright != nullptr && i % 2 == 1;
+            const Vec2 square = next();
+            const Vec3 d = towardsLight ? bright->draw(square) * turn_ : turnedTo(normal, cosineHemisphere(square));
+            const double cosine = glm::dot(d, normal);
+            if (cosine <= 0) continue;
+            const Vec3 local = toLocal(p.s, d);
             const bool byRelief = relief && (local.z <= 0 || !isLit(p.truth->relief->rays, p.at, local));
             const bool byAll = byRelief || (occlusion_ && blockedByMeshes(p, d));
             if (!byAll) continue;
-            const Rgb radiance = p.truth->diffuseSource ? p.truth->diffuseSource(turn_ * d) : Rgb(0);
-            sum.byAll += 1.0 / rays, sum.radianceByAll += radiance / double(rays);
-            if (byRelief) sum.byRelief += 1.0 / rays, sum.radianceByRelief += radiance / double(rays);
+            double weight = 1.0 / rays;
+            if (bright != nullptr) {
+                const double share = double(rays / 2) / rays, density = cosine / kPi;
+                weight *= density / ((1 - share) * density + share * bright->density(turn_ * d));
+            }
+            const Rgb radiance = bright != nullptr ? p.truth->diffuseColor * bright->radiance(turn_ * d) : Rgb(0);
+            sum.byAll += weight, sum.radianceByAll += weight * radiance;
+            if (byRelief) sum.byRelief += weight, sum.radianceByRelief += weight * radiance;
         }
         return *(kept = sum);
     }
@@ -298,12 +332,12 @@ private:
     Rgb mirrorBlocked(Point& p, const Vec3& r, bool relief) const {
         std::optional<Rgb>& kept = p.mirrorBlocked[relief];
         if (kept) return *kept;
-        Random random(options_.seed, p.number, 2);
         const int rays = isMirror(p.truth->reflectionLobe) ? 1 : options_.occlusionRays;
+        PixelSequence next = sequence(p, 2, rays);
         Rgb sum(0);
         double weights = 0;
         for (int i = 0; i < rays; ++i) {
-            const auto [d, weight] = lobeSample(p.truth->reflectionLobe, r, random);
+            const auto [d, weight] = lobeSample(p.truth->reflectionLobe, r, next());
             weights += weight;
             if (weight > 0 && blockedByMeshes(p, d)) sum += weight * p.truth->reflectionSource(turn_ * d);
         }

@@ -29,6 +29,7 @@ RadianceByDirection lookup(Radiance map, const Rgb& color) {
 
 struct OpenEnvironment {
     Radiance source, blocked;
+    std::shared_ptr<const BrightTexels> bright;
     std::vector<Lobe> lobes;  ///< one a level
     std::optional<LevelMapping> mapping;
     std::map<double, Radiance> tables;        ///< by lod
@@ -151,6 +152,7 @@ private:
             if (out.lobes.empty()) out.lobes.assign(chain.levels.size(), Lobe{});
         }
         out.blocked = std::make_shared<const EnvMap>(areaAveraged(*out.source, kBlockedSize, threads_));
+        out.bright = std::make_shared<const BrightTexels>(*out.blocked);
         return environments_.emplace(index, std::move(out)).first->second;
     }
 
@@ -227,7 +229,8 @@ private:
         if (s.transmission.asset >= 0) out.transmission = radianceOf(s.transmission);
         if (s.diffuse.asset >= 0) {
             out.diffuse = radianceOf(s.diffuse);
-            truth.diffuseSource = lookup(environment(s.diffuse.asset).blocked, s.diffuse.color);
+            truth.diffuseSource = environment(s.diffuse.asset).bright;
+            truth.diffuseColor = s.diffuse.color;
         }
     }
 

@@ -10,6 +10,7 @@
 #include "core/scene_description.hpp"
 #include "envmaps/lobes.hpp"
 #include "factorize/reflectance.hpp"
+#include "reference/bright_texels.hpp"
 #include "reference/environment_shading.hpp"
 #include "reference/relief_rays.hpp"
 
@@ -29,10 +30,11 @@ struct MaterialTruth {
     BrdfFunction bakedBrdf{};  ///< what the asset holds: its own share of the error; empty for models
     std::shared_ptr<const ReliefTruth> relief{};
     SurroundedSurface surrounding{};  ///< integrals over the unbaked environment, exact weights
-    /// Radiance of the environment that `surrounding.diffuse` integrates, its factor included: what is subtracted where
+    /// Radiance of the environment that `surrounding.diffuse` integrates, without its factor: what is subtracted where
     /// it is blocked. Averaged over about 3°.
-    RadianceByDirection diffuseSource{};
-    /// The same of `surrounding.reflection`, with the lobe that it is blocked in.
+    std::shared_ptr<const BrightTexels> diffuseSource{};
+    Rgb diffuseColor{1};
+    /// The same of `surrounding.reflection`, factor included, with the lobe that it is blocked in.
     RadianceByDirection reflectionSource{};
     Lobe reflectionLobe{};
 };

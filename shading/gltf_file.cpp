@@ -19,7 +19,7 @@ constexpr std::uint64_t kMaxBytes = 4ull << 30;  // glTF's own limit of a contai
 constexpr std::size_t kHeader = 12, kChunkHeader = 8;
 constexpr std::uint32_t kMagic = 0x46546C67, kJsonChunk = 0x4E4F534A;  // "glTF", "JSON"
 
-std::uint32_t word(const std::vector<std::uint8_t>& bytes, std::size_t at) {
+std::uint32_t word(std::span<const std::uint8_t> bytes, std::size_t at) {
     std::uint32_t out = 0;
     for (std::size_t i = 0; i < 4; ++i) out |= static_cast<std::uint32_t>(bytes[at + i]) << (8 * i);
     return out;
@@ -30,7 +30,7 @@ void putWord(std::vector<std::uint8_t>& out, std::size_t value) {
 }
 
 /// \return the JSON text; leaves what follows it in file.chunks
-std::string openContainer(GltfFile& file, const std::vector<std::uint8_t>& bytes) {
+std::string openContainer(GltfFile& file, std::span<const std::uint8_t> bytes) {
     const std::string name = file.path.string();
     if (bytes.size() < kHeader + kChunkHeader)
         throw Error(fmt::format("{}: expected a glTF container, found {} bytes", name, bytes.size()));
@@ -57,11 +57,12 @@ json bare(const std::string& name) { return {{"name", name}}; }
 
 }  // namespace
 
-GltfFile readGltf(const std::filesystem::path& path) {
+GltfFile readGltf(const std::filesystem::path& path) { return parseGltf(readFile(path, kMaxBytes), path); }
+
+GltfFile parseGltf(std::span<const std::uint8_t> bytes, const std::filesystem::path& path) {
     GltfFile file;
     file.path = path;
     const std::string name = path.string();
-    const std::vector<std::uint8_t> bytes = readFile(path, kMaxBytes);
     file.isBinary = bytes.size() >= 4 && word(bytes, 0) == kMagic;
     file.document =
         parseJson(file.isBinary ? openContainer(file, bytes) : std::string(bytes.begin(), bytes.end()), name);

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <nlohmann/json.hpp>
+#include <span>
 #include <vector>
 
 namespace nacre {
@@ -19,6 +20,8 @@ struct GltfFile {
 /// \throws nacre::Error naming the file: unreadable, no glTF 2 container, wrong JSON, a required extension that isn't
 ///         read
 GltfFile readGltf(const std::filesystem::path& path);
+/// readGltf of a file's bytes. \param path  what messages name
+GltfFile parseGltf(std::span<const std::uint8_t> bytes, const std::filesystem::path& path);
 
 /// The file with its meshes each in a node of its own, "m0", "m1", …, and its nodes bare and side by side, "n0", "n1",
 /// …, for the key frames; materials are names alone, "m0", "m1", …, because assimp counts them as they come. No

@@ -71,13 +71,17 @@ void RenderTarget::clear(const glm::vec4& color) const {
     glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
 }
 
-Image RenderTarget::read(int channels) const {
+void RenderTarget::bindForReading() const {
     if (resolve_) {
         glBindFramebuffer(GL_READ_FRAMEBUFFER, framebuffer_.name());
         glBindFramebuffer(GL_DRAW_FRAMEBUFFER, resolve_->name());
         glBlitFramebuffer(0, 0, width(), height(), 0, 0, width(), height(), GL_COLOR_BUFFER_BIT, GL_NEAREST);
     }
     glBindFramebuffer(GL_FRAMEBUFFER, resolve_ ? resolve_->name() : framebuffer_.name());
+}
+
+Image RenderTarget::read(int channels) const {
+    bindForReading();
     std::vector<float> pixels(static_cast<std::size_t>(width()) * static_cast<std::size_t>(height()) * 4);
     glPixelStorei(GL_PACK_ALIGNMENT, 1);
     glReadPixels(0, 0, width(), height(), GL_RGBA, GL_FLOAT, pixels.data());

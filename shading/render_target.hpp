@@ -32,6 +32,9 @@ public:
     void bind() const;
     /// bind(), then fills colour, and depth with 1.
     void clear(const glm::vec4& color = glm::vec4(0)) const;
+    /// Resolves samples and binds what holds one a pixel, for glReadPixels and glCopyTexSubImage2D; row 0 is the
+    /// lowest.
+    void bindForReading() const;
     /// The pixels, row 0 on top. Resolves samples first. Leaves this bound.
     /// \param channels  1 to 4
     Image read(int channels = 3) const;

@@ -239,12 +239,15 @@ private:
     ImportedScene out_;
 };
 
-ImportedScene readJsonScene(const fs::path& path, const SceneOptions& options, SceneStack open) {
+ImportedScene readDocument(const json& document, const fs::path& path, const SceneOptions& options, SceneStack open) {
     open.push_back(fs::weakly_canonical(path));
-    const json document = readSceneJson(path);
     const std::string name = path.string();
     const JsonField root(document, name);
     return SceneReader(root, path, options, open).read();
+}
+
+ImportedScene readJsonScene(const fs::path& path, const SceneOptions& options, SceneStack open) {
+    return readDocument(readSceneJson(path), path, options, std::move(open));
 }
 
 /// What a file that is no scene file lacks to be looked at.
@@ -262,11 +265,7 @@ void complete(SceneDescription& scene, const Camera& camera) {
         if (material.ambient == Rgb(0)) material.ambient = Rgb(0.03);
 }
 
-}  // namespace
-
-SceneDescription readScene(const fs::path& path, const SceneOptions& options) {
-    const bool isOurs = path.extension() == ".json";
-    ImportedScene in = isOurs ? readJsonScene(path, options, {}) : importScene(path, options.note);
+SceneDescription finished(ImportedScene in, const fs::path& path, bool isOurs) {
     SceneDescription& scene = in.scene;
     scene.file = path;
     markMoving(scene);
@@ -277,6 +276,17 @@ SceneDescription readScene(const fs::path& path, const SceneOptions& options) {
         scene.camera = withDepth(scene.camera, bounds);
     if (!isOurs) complete(scene, scene.camera);
     return std::move(in.scene);
+}
+
+}  // namespace
+
+SceneDescription readScene(const fs::path& path, const SceneOptions& options) {
+    const bool isOurs = path.extension() == ".json";
+    return finished(isOurs ? readJsonScene(path, options, {}) : importScene(path, options.note), path, isOurs);
+}
+
+SceneDescription parseScene(std::string_view text, const fs::path& path, const SceneOptions& options) {
+    return finished(readDocument(parseJson(text, path.string()), path, options, {}), path, true);
 }
 
 bool isSceneName(const fs::path& path) { return path.extension() == ".json" || isImportName(path); }

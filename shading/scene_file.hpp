@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <functional>
+#include <string_view>
 
 #include "core/scene_description.hpp"
 
@@ -23,6 +24,9 @@ struct SceneOptions {
 /// \throws nacre::Error naming file, the path in the JSON, expected and found; a list of names where one is unknown;
 ///         for cycles the names along it
 SceneDescription readScene(const std::filesystem::path& path, const SceneOptions& options = {});
+
+/// readScene of a scene file's text. \param path  where it would lie: what messages name and paths count from
+SceneDescription parseScene(std::string_view text, const std::filesystem::path& path, const SceneOptions& options = {});
 
 /// Whether readScene knows the ending of this name.
 bool isSceneName(const std::filesystem::path& path);

@@ -12,6 +12,7 @@
 #include "shading/environment_pass.hpp"
 #include "shading/gpu_direct_brdf.hpp"
 #include "shading/pass_state.hpp"
+#include "shading/shadow_map.hpp"
 
 namespace nacre {
 namespace {
@@ -141,6 +142,19 @@ ShaderDefines surroundingDefines(const SceneSurrounding& s, const std::vector<As
     return environmentDefines(choices);
 }
 
+/// What maps will look like, whatever they are fitted to.
+ShaderDefines shadowDefinesOf(const SceneDescription& scene) {
+    Bounds box;
+    box.add(Vec3(-1));
+    box.add(Vec3(1));
+    std::vector<ShadowView> views;
+    for (const SceneLight& light : scene.lights)
+        views.push_back(light.shadow ? fitShadow(*light.shadow, light.light, box, &scene.camera) : ShadowView());
+    std::vector<const ShadowView*> used;
+    for (std::size_t i = 0; i < views.size(); ++i) used.push_back(scene.lights[i].shadow ? &views[i] : nullptr);
+    return shadowDefines(used);
+}
+
 ShaderDefines brdfDefines(const SceneDescription& scene, const SceneMaterial& m, const std::vector<AssetTraits>& assets,
                           SceneReflectance reflectance) {
     if (m.brdf >= 0 && reflectance != SceneReflectance::Direct) return at(assets, m.brdf).brdf;
@@ -223,7 +237,7 @@ bool takesLamps(const SceneDescription& scene, const SceneMaterial& material, co
 
 SceneProgram materialProgram(const SceneDescription& scene, const SceneMaterial& m,
                              const std::vector<AssetTraits>& assets, const SceneSwitches& switches,
-                             const ShaderDefines& shadowDefines) {
+                             const ShaderDefines& shadows) {
     const bool lamps = takesLamps(scene, m, switches);
     std::vector<Light> lights;
     for (const SceneLight& light : scene.lights) lights.push_back(light.light);
@@ -236,7 +250,7 @@ SceneProgram materialProgram(const SceneDescription& scene, const SceneMaterial&
     if (lamps) {
         defines = brdfDefines(scene, m, assets, switches.reflectance);
         defines.emplace_back("NACRE_SCENE_LAMPS", "1");
-        defines = joined(std::move(defines), shadowDefines);
+        defines = joined(std::move(defines), shadows);
     }
     defines = withLights(std::move(defines), lights);
     if (m.surrounding && switches.surrounding) {
@@ -251,11 +265,13 @@ SceneProgram materialProgram(const SceneDescription& scene, const SceneMaterial&
 
 std::vector<ListedProgram> scenePrograms(const SceneDescription& scene, const std::vector<AssetTraits>& assets,
                                          const SceneSwitches& switches) {
+    const ShaderDefines shadows = switches.shadows ? shadowDefinesOf(scene) : ShaderDefines();
     std::vector<ListedProgram> out;
     for (std::size_t i = 0; i < scene.nodes.size(); ++i) {
         if (scene.nodes[i].mesh < 0) continue;
         const SceneMaterial& material = scene.materials.at(static_cast<std::size_t>(scene.nodes[i].material));
-        SceneProgram program = materialProgram(scene, material, assets, switches);
+        SceneProgram program = materialProgram(scene, material, assets, switches,
+                                               scene.nodes[i].receivesShadow ? shadows : ShaderDefines());
         auto known = std::find_if(out.begin(), out.end(), [&](const ListedProgram& p) { return p.program == program; });
         if (known == out.end()) known = out.insert(out.end(), {std::move(program), {}});
         known->nodes.push_back(static_cast<int>(i));

@@ -60,10 +60,10 @@ struct SceneProgram {
 /// Whether lights matter: they are on, there are some, and the material has a BRDF.
 bool takesLamps(const SceneDescription& scene, const SceneMaterial& material, const SceneSwitches& switches);
 
-/// The program that draws a material. \param shadowDefines  of the lights' shadow maps, for nodes that receive them
+/// The program that draws a material. \param shadows  shadowDefines of the lights' maps, for nodes that receive them
 SceneProgram materialProgram(const SceneDescription& scene, const SceneMaterial& material,
                              const std::vector<AssetTraits>& assets, const SceneSwitches& switches,
-                             const ShaderDefines& shadowDefines = {});
+                             const ShaderDefines& shadows = {});
 
 /// The relief that is drawn under these switches: none, or the material's with what they leave of it.
 std::optional<SceneRelief> reliefOf(const SceneMaterial& material, const std::vector<AssetTraits>& assets,

@@ -14,6 +14,7 @@
 #include "shading/gpu_relief_light.hpp"
 #include "shading/mean_light.hpp"
 #include "shading/pass_state.hpp"
+#include "shading/shadow_map.hpp"
 
 namespace nacre {
 namespace {
@@ -25,6 +26,7 @@ constexpr double kTurned = 2e-3;
 
 struct DrawnMesh {
     std::optional<GpuMesh> gpu;  ///< none: without triangles
+    Bounds box;
     Vec3 centre{0};
     double radius = 0;
 };
@@ -33,10 +35,9 @@ DrawnMesh upload(const Mesh& mesh) {
     DrawnMesh out;
     if (mesh.triangles.empty()) return out;
     out.gpu.emplace(mesh);
-    Vec3 low(mesh.positions.front()), high = low;
-    for (const glm::vec3& p : mesh.positions) low = glm::min(low, Vec3(p)), high = glm::max(high, Vec3(p));
-    out.centre = 0.5 * (low + high);
-    out.radius = 0.5 * glm::length(high - low);
+    out.box = boundsOf(mesh);
+    out.centre = 0.5 * (out.box.low + out.box.high);
+    out.radius = 0.5 * glm::length(out.box.high - out.box.low);
     return out;
 }
 
@@ -61,6 +62,26 @@ bool sameLight(const Light& a, const Light& b) {
         a.cone.has_value() == b.cone.has_value() &&
         (!a.cone || (a.cone->axis == b.cone->axis && a.cone->inner == b.cone->inner && a.cone->outer == b.cone->outer));
     return a.directional == b.directional && a.position == b.position && a.color == b.color && cones;
+}
+
+bool sameShadow(const SceneShadow& a, const SceneShadow& b) {
+    return a.size == b.size && a.bits == b.bits && a.filter == b.filter && a.faces == b.faces && a.bias == b.bias &&
+           a.near == b.near && a.far == b.far && a.cascades == b.cascades && a.dualParaboloid == b.dualParaboloid;
+}
+
+/// A light's shadow map, and what it was drawn from.
+struct LightShadow {
+    std::optional<ShadowMap> map;
+    Light light;
+    std::vector<ShadowCaster> casters;
+    Bounds bounds;
+    glm::dmat4 camera{0};  ///< of cascades
+};
+
+bool sameCasters(const std::vector<ShadowCaster>& a, const std::vector<ShadowCaster>& b) {
+    return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](const ShadowCaster& x, const ShadowCaster& y) {
+        return x.mesh == y.mesh && x.toWorld == y.toWorld;
+    });
 }
 
 /// One node of a frame.
@@ -116,6 +137,7 @@ struct SceneRenderer::State {
     std::vector<DrawnMesh> meshes;
     std::vector<std::optional<GpuDirectBrdf>> models;  ///< one a material: what Direct evaluates
     std::map<std::size_t, NodeLight> nodeLights;       ///< of nodes whose relief has indirect light
+    std::vector<LightShadow> lightShadows;             ///< one a light
     PassClock clock;
     bool timing = false;
 
@@ -218,6 +240,59 @@ struct SceneRenderer::State {
         return out;
     }
 
+    /// Draws the maps of lights that moved, or whose casters did.
+    void updateShadows(const Camera& camera, double aspect, const std::vector<glm::dmat4>& nodes,
+                       const std::vector<Light>& lights) {
+        lightShadows.resize(lights.size());
+        ShadowScene drawn;
+        drawn.camera = &camera;
+        drawn.aspect = aspect;
+        for (std::size_t i = 0; i < scene.nodes.size(); ++i) {
+            const DrawnMesh* mesh = meshOf(i);
+            if (!mesh) continue;
+            for (int corner = 0; corner < 8; ++corner) {
+                const Vec3 p(corner & 1 ? mesh->box.high.x : mesh->box.low.x,
+                             corner & 2 ? mesh->box.high.y : mesh->box.low.y,
+                             corner & 4 ? mesh->box.high.z : mesh->box.low.z);
+                drawn.bounds.add(Vec3(nodes[i] * Vec4(p, 1)));
+            }
+            if (scene.nodes[i].castsShadow) drawn.casters.push_back({&*mesh->gpu, nodes[i]});
+        }
+        if (drawn.bounds.empty()) return;
+        for (std::size_t i = 0; i < lights.size(); ++i) {
+            LightShadow& kept = lightShadows[i];
+            const std::optional<SceneShadow>& options = scene.lights[i].shadow;
+            if (!options) {
+                kept.map.reset();
+                continue;
+            }
+            const bool cascades = lights[i].directional && options->cascades > 1;
+            const glm::dmat4 view = cascades ? camera.projection(aspect) * camera.view() : glm::dmat4(0);
+            if (kept.map && sameShadow(kept.map->options(), *options) && sameLight(kept.light, lights[i]) &&
+                kept.bounds.low == drawn.bounds.low && kept.bounds.high == drawn.bounds.high && kept.camera == view &&
+                sameCasters(kept.casters, drawn.casters))
+                continue;
+            if (!kept.map || !sameShadow(kept.map->options(), *options)) kept.map.emplace(*options);
+            kept.map->update(loader, lights[i], drawn);
+            kept.light = lights[i];
+            kept.casters = drawn.casters;
+            kept.bounds = drawn.bounds;
+            kept.camera = view;
+        }
+    }
+
+    /// Those in use, one a light or none; for nodes that receive shadows.
+    std::vector<const ShadowMap*> shadowsOf(const SceneSwitches& on) const {
+        if (!on.shadows || on.reflectance == SceneReflectance::FastPhong) return {};
+        std::vector<const ShadowMap*> out;
+        bool any = false;
+        for (const LightShadow& shadow : lightShadows) {
+            out.push_back(shadow.map && shadow.map->drawn() ? &*shadow.map : nullptr);
+            any = any || out.back() != nullptr;
+        }
+        return any ? out : std::vector<const ShadowMap*>();
+    }
+
     /// Everything but the node's place.
     void bindMaterial(const Program& program, std::size_t node, const SceneSwitches& on, const LitView& view) const {
         const SceneMaterial& m = materialOf(node);
@@ -253,16 +328,20 @@ struct SceneRenderer::State {
         // Front to back: what is hidden is rejected before it is shaded.
         std::stable_sort(draws.begin(), draws.end(),
                          [](const Draw& a, const Draw& b) { return a.nearest < b.nearest; });
+        const std::vector<const ShadowMap*> shadows = shadowsOf(on);
+        const ShaderDefines defines = shadowDefines(shadows, lights);
         LitView view{camera, lights};
         const Program* program = nullptr;
         int material = -1;
         for (const Draw& draw : draws) {
             const SceneMaterial& m = materialOf(draw.node);
-            const SceneProgram wanted = materialProgram(scene, m, traits, on);
+            const bool shadowed = scene.nodes[draw.node].receivesShadow;
+            const SceneProgram wanted = materialProgram(scene, m, traits, on, shadowed ? defines : ShaderDefines());
             const Program& next = loader.load(wanted.vertex, wanted.fragment, wanted.defines);
             const bool own = nodeLights.count(draw.node) != 0;  // its texture is the node's, not the material's
             if (&next != program || material != scene.nodes[draw.node].material || own) {
                 view.ambient = on.ambient ? m.ambient : Rgb(0);
+                view.shadows = shadowed && takesLamps(scene, m, on) ? shadows : std::vector<const ShadowMap*>();
                 bindMaterial(next, draw.node, on, view);
                 setView(next, camera, target);
                 program = &next;
@@ -278,6 +357,8 @@ struct SceneRenderer::State {
         checkLights(lights, kMaxLights);
         clock.start(timing);
         clock("relief light", [&] { updateNodeLights(on, nodes, lights); });
+        const double aspect = static_cast<double>(target.width()) / target.height();
+        if (on.shadows && on.lamps) clock("shadow maps", [&] { updateShadows(camera, aspect, nodes, lights); });
         clock("surfaces", [&] {
             target.clear(glm::vec4(glm::vec3(on.sky ? scene.sky.color : Rgb(0)), 1));
             drawNodes(target, camera, on, nodes, lights);
@@ -326,6 +407,7 @@ struct SceneRenderer::State {
         traits = std::move(nextTraits);
         meshes = std::move(nextMeshes);
         nodeLights.clear();
+        lightShadows.clear();
         prepareModels();
     }
 };

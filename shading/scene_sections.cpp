@@ -12,7 +12,7 @@
 namespace nacre {
 namespace {
 
-constexpr int kMostSteps = 4096;  // of a shape made by formula, each way
+constexpr int kMostSteps = 2048;  // of a shape made by formula, each way
 constexpr double kLargest = 1e9;  // lengths in floats
 
 float lengthOr(const JsonField& field, const char* key, float fallback) {

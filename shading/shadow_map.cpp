@@ -171,18 +171,27 @@ ShaderDefines shadowDefines(std::span<const ShadowMap* const> shadows, std::span
     require(
         shadows.size() == lights.size() && shadows.size() <= kMaxShadows,
         fmt::format("shadows: expected none or one for each of {} lights, found {}", lights.size(), shadows.size()));
-    ShaderDefines out;
+    std::vector<const ShadowView*> views;
     for (std::size_t i = 0; i < shadows.size(); ++i) {
-        const ShadowMap* shadow = shadows[i];
-        if (shadow == nullptr) continue;
-        require(shadow->drawn(), "shadows: a map was not drawn yet");
-        const ShadowView& view = shadow->view();
-        require(fits(lights[i], view.kind), fmt::format("shadows: light {} is of another kind than its map", i));
+        views.push_back(nullptr);
+        if (shadows[i] == nullptr) continue;
+        require(shadows[i]->drawn(), "shadows: a map was not drawn yet");
+        views.back() = &shadows[i]->view();
+        require(fits(lights[i], views.back()->kind),
+                fmt::format("shadows: light {} is of another kind than its map", i));
+    }
+    return shadowDefines(views);
+}
+
+ShaderDefines shadowDefines(std::span<const ShadowView* const> views) {
+    ShaderDefines out;
+    for (std::size_t i = 0; i < views.size(); ++i) {
+        if (views[i] == nullptr) continue;
         if (out.empty()) out.emplace_back("NACRE_SHADOWS", "1");
-        out.emplace_back(fmt::format("NACRE_SHADOW_{}", i), kKinds[static_cast<std::size_t>(view.kind)]);
-        out.emplace_back(fmt::format("NACRE_SHADOW_N_{}", i), std::to_string(view.filter));
-        out.emplace_back(fmt::format("NACRE_SHADOW_B_{}", i), std::to_string(shadow->options().bits));
-        out.emplace_back(fmt::format("NACRE_SHADOW_C_{}", i), std::to_string(view.cascades.size()));
+        out.emplace_back(fmt::format("NACRE_SHADOW_{}", i), kKinds[static_cast<std::size_t>(views[i]->kind)]);
+        out.emplace_back(fmt::format("NACRE_SHADOW_N_{}", i), std::to_string(views[i]->filter));
+        out.emplace_back(fmt::format("NACRE_SHADOW_B_{}", i), std::to_string(views[i]->bits));
+        out.emplace_back(fmt::format("NACRE_SHADOW_C_{}", i), std::to_string(views[i]->cascades.size()));
     }
     return out;
 }

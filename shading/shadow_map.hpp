@@ -67,6 +67,8 @@ inline constexpr int kMaxShadows = 8;  ///< each takes a sampler; OpenGL ES prom
 /// \throws std::invalid_argument unless there are none or as many as lights, for a map not drawn yet, and for a map of
 ///         another kind of light
 ShaderDefines shadowDefines(std::span<const ShadowMap* const> shadows, std::span<const Light> lights);
+/// The same of the maps' views, without a GPU.
+ShaderDefines shadowDefines(std::span<const ShadowView* const> views);
 /// Binds light i's map to unit firstUnit + i and sets the uniforms of bind/shadows.glsl; leaves `program` in use.
 void bindShadows(const Program& program, std::span<const ShadowMap* const> shadows, int firstUnit);
 

@@ -129,6 +129,8 @@ Gallery makeGallery(const Arguments& arguments, const Choice& choice) {
     ExhibitOptions exhibitOptions;
     exhibitOptions.worldFolder = std::filesystem::path(arguments.data) / "world";
     exhibitOptions.heightFolder = std::filesystem::path(arguments.data) / "heights";
+    exhibitOptions.volumeFolder = std::filesystem::path(arguments.data) / "volumes";
+    exhibitOptions.sceneFolder = NACRE_SCENES;
     exhibitOptions.quick = arguments.quick;
     exhibitOptions.timingRepeats = options.timingRepeats;
     exhibitOptions.progress = options.progress;

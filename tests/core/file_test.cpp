@@ -93,5 +93,17 @@ TEST(ContentHash, KnownValues) {  // FNV-1a test vectors: empty, "a", "foobar"
     EXPECT_EQ(contentHash("foobar"), "85944171f73967e8");
 }
 
+TEST(FileHash, IsTheContents) {
+    const tests::Scratch scratch;
+    std::string text(3 << 20, 'x');  // several blocks
+    text.back() = 'y';
+    for (const std::string& content : {std::string(), std::string("foobar"), text}) {
+        writeFile(scratch / "f", content);
+        EXPECT_EQ(fileHash(scratch / "f"), contentHash(content));
+    }
+    EXPECT_THROW(fileHash(scratch / "gone"), Error);
+    EXPECT_THROW(fileHash(scratch.folder()), Error);
+}
+
 }  // namespace
 }  // namespace nacre

@@ -5,6 +5,7 @@ Run from the repository root: python3 tests/fuzz/make_corpus.py
 envmap of a 4 x 2 picture --convert,
 bump of a 4 x 3 picture with every output; corpus/exr from OpenEXR:
 tests/core/exr_files.hpp, 9 × 9 texels or less in each compression.)"""
+import json
 import math
 import os
 import struct
@@ -122,3 +123,58 @@ write("volume/head.den", struct.pack("<H", 1) + boxes + struct.pack("<HI", 3, 12
 for kind, bits, data in [("float", 32, struct.pack("<2f", 1, -2)), ("signed fixed", 16, struct.pack("<2h", 1, -2))]:
     header = f"#INRIMAGE-4#{{\nXDIM=2\nYDIM=1\nZDIM=1\nVDIM=1\nTYPE={kind}\nPIXSIZE={bits} bits\nCPU=decm\nVX=2\n"
     write(f"volume/{bits}.inr", header.encode().ljust(252, b"\n") + b"##}\n" + data)
+
+
+def glb(document, rest=b""):
+    text = json.dumps(document).encode()
+    text += b" " * (-len(text) % 4)
+    return struct.pack("<4sIIII", b"glTF", 2, 20 + len(text) + len(rest), len(text), 0x4E4F534A) + text + rest
+
+
+lights = {"KHR_lights_punctual": {"lights": [{"type": "spot", "intensity": 3, "range": 4, "color": [1, 0.5, 0],
+                                              "spot": {"innerConeAngle": 0.1, "outerConeAngle": 0.5}},
+                                             {"type": "directional"}]}}
+gltf = {
+    "asset": {"version": "2.0"}, "extensionsUsed": ["KHR_lights_punctual"], "extensions": lights, "scene": 0,
+    "scenes": [{"nodes": [0, 3]}],
+    "nodes": [{"name": "a", "children": [1, 2], "rotation": [0, 0.6, 0, 0.8], "scale": [1, 2, 3]},
+              {"mesh": 0, "extensions": {"KHR_lights_punctual": {"light": 0}}},
+              {"camera": 0, "matrix": [0, 1, 0, 0, -1, 0, 0, 0, 0, 0, 1, 0, 5, 0, 0, 1]},
+              {"camera": 1, "extensions": {"KHR_lights_punctual": {"light": 1}}}],
+    "meshes": [{"primitives": [{"attributes": {"POSITION": 0}, "material": 0}]}],
+    "materials": [{"pbrMetallicRoughness": {"baseColorFactor": [1, 0.5, 0, 1], "metallicFactor": 0.5, "roughnessFactor": 0.3},
+                   "emissiveFactor": [0, 0, 1], "alphaMode": "BLEND"}],
+    "cameras": [{"type": "perspective", "perspective": {"yfov": 0.7, "znear": 0.1}},
+                {"type": "orthographic", "orthographic": {"xmag": 1, "ymag": 2, "znear": 0, "zfar": 9}}],
+    "animations": [{"samplers": [{"input": 0, "output": 1, "interpolation": "STEP"}],
+                    "channels": [{"sampler": 0, "target": {"node": 1, "path": "rotation"}}]}],
+}
+write("gltf/all.glb", glb(gltf, b"\4\0\0\0BIN\0abcd"))
+write("gltf/all.gltf", json.dumps(gltf, indent=1).encode())
+write("gltf/cycle.gltf", b'{"asset":{"version":"2.0"},"scenes":[{"nodes":[0]}],"nodes":[{"children":[1]},{"children":[0]}]}')
+write("gltf/cut.glb", glb(gltf)[:40])
+scene = {
+    "nacre_scene": 1,
+    "assets": {"w": {"file": "w.exr", "bake": {"verb": "bump", "source": "w.png", "options": {"--scale": 2.5, "--ellipses": True,
+                                                                                         "--light": [1, 0, 1]}}}},
+    "meshes": {"b": {"sphere": {"segments": 6, "stacks": 4}, "fit": 3}, "q": {"quad": {"size": 2}},
+               "t": {"torus": {"rings": 5, "sides": 4}}, "d": {"disk": {"segments": 5, "rings": 2}}},
+    "materials": {"m": {"model": "ggx:alpha=0.3", "ambient": 0.1, "relief": {"asset": "w", "tiles": [2, 3]}},
+                  "s": {"brdf": "w", "surrounding": {"reflection": {"asset": "w", "lod": 1}, "ior": 1.3}}},
+    "lights": {"l": {"type": "spot", "position": [0, 4, 0], "target": [0, 0, 0], "outerDeg": 30, "node": "n", "shadow": {"bits": 16}},
+               "p": {"type": "point", "shadow": True}, "s": {"type": "directional", "direction": [0, -1, 0], "color": [1, 2, 3]}},
+    "nodes": {"n": {"children": ["c"], "axis": [0, 1, 0], "angleDeg": 30},
+              "c": {"mesh": "q", "material": "m", "scale": [1, 2, -3], "rotation": [0, 0, 0, 1]},
+              "e": {"mesh": "b", "material": "s", "static": False}},
+    "camera": {"eye": [0, 1, 5], "fovYDeg": 40},
+    "sky": {"color": [0, 0, 1], "rotationYDeg": 20},
+    "animation": {"duration": 3, "tracks": [
+        {"node": "n", "path": "rotation", "times": [0, 1, 2], "axis": [0, 1, 0], "anglesDeg": [0, 90, 180]},
+        {"node": "c", "path": "translation", "times": [0.5], "values": [[1, 2, 3]], "interpolation": "step"}]},
+}
+write("scene/all.json", json.dumps(scene, indent=1).encode())
+write("scene/empty.json", b'{"nacre_scene": 1}')
+write("scene/import.json", b'{"nacre_scene": 1, "nodes": {"n": {"import": "x.glb"}, "m": {"import": "scene.json"}}}')
+write("scene/twice.json", b'{"nacre_scene": 1, "nodes": {"n": {}, "n": {}}}')
+write("scene/cycle.json", b'{"nacre_scene": 1, "nodes": {"n": {"children": ["m"]}, "m": {"children": ["n"]}}}')
+write("scene/deep.json", b"[" * 70)

@@ -25,6 +25,8 @@
 #include "factorize/measured/rgl.hpp"
 #include "factorize/measured/samples.hpp"
 #include "factorize/models/models.hpp"
+#include "shading/gltf_scene.hpp"
+#include "shading/scene_file.hpp"
 #include "shading/volume_file.hpp"
 
 namespace nacre::tests {
@@ -90,6 +92,27 @@ static void readVolumeBytes(std::span<const std::uint8_t> bytes) {
         if (!std::isfinite(v)) throw std::logic_error("a volume's value that isn't finite");
 }
 
+/// Scene files whose meshes are made by formula: the files that they name are not there.
+static void readSceneText(std::span<const std::uint8_t> bytes) {
+    SceneOptions options;
+    options.needAssets = false;
+    const SceneDescription scene = parseScene({reinterpret_cast<const char*>(bytes.data()), bytes.size()},
+                                              "/nowhere/to/be/found/scene.json", options);
+    for (const double time : {0.0, 0.7})
+        for (const Light& light : lightsInWorld(scene, nodeTransforms(scene, time)))
+            if (std::isnan(light.position.x)) throw std::logic_error("a light nowhere");
+    if (!isFinite(scene.camera.eye) || !(scene.camera.far > scene.camera.near))
+        throw std::logic_error("a camera that sees nothing");
+}
+
+/// Our half of glTF: container, hierarchy, lights, cameras. Geometry is assimp's, and assimp is not tested here.
+static void readGltfBytes(std::span<const std::uint8_t> bytes) {
+    const GltfFile file = parseGltf(bytes, "input.glb");
+    const GltfScene scene = gltfScene(file, {});
+    nodeTransforms(scene.scene, 0);
+    if (geometryOf(file).empty()) throw std::logic_error("no container");
+}
+
 /// Feeds a reader of lines.
 template <typename Reader, typename Item>
 static void readLines(std::span<const std::uint8_t> bytes) {
@@ -115,6 +138,8 @@ const std::vector<FuzzTarget>& fuzzTargets() {
                                                     {"tiff", readTiffBytes},
                                                     {"png", readPngBytes},
                                                     {"volume", readVolumeBytes},
+                                                    {"scene", readSceneText},
+                                                    {"gltf", readGltfBytes},
                                                     {"env_queries", readLines<cli::EnvQueryReader, cli::EnvQuery>},
                                                     {"bump_queries", readLines<cli::BumpQueryReader, cli::BumpQuery>}};
     return targets;

@@ -124,7 +124,7 @@ TEST_F(SceneFile, WrongTypesAndRanges) {
     refuses(R"("meshes": {"m": {}})", "/meshes/m", "expected one of file, torus");
     refuses(R"("meshes": {"m": {"torus": {}, "disk": {}}})", "/meshes/m", "torus and disk");
     refuses(R"("meshes": {"m": {"torus": {"tube": -1}}})", "/meshes/m/torus/tube", "above 0, found -1");
-    refuses(R"("meshes": {"m": {"sphere": {"segments": 2}}})", "/meshes/m/sphere/segments", "3 to 4096, found 2");
+    refuses(R"("meshes": {"m": {"sphere": {"segments": 2}}})", "/meshes/m/sphere/segments", "3 to 2048, found 2");
     refuses(R"("materials": {"m": {"ambient": [1, 2]}})", "/materials/m/ambient",
             "expected an array of 3, found an array of 2");
     refuses(R"("materials": {"m": {"ambient": [1, 2, -1]}})", "/materials/m/ambient/2", "at least 0");

@@ -11,7 +11,6 @@
 #include "factorize/models/models.hpp"
 #include "shading/image_output.hpp"
 #include "shading/primitives.hpp"
-#include "tests/bump/relief_fixtures.hpp"
 
 namespace nacre::test {
 namespace {
@@ -24,6 +23,17 @@ EnvMap smallSky() {
     EnvMap map(EnvLayout::LatLong, 32);
     for (int y = 0; y < 32; ++y)
         for (int x = 0; x < 64; ++x) map.image.setRgb(x, y, skyFrom(envTexelDirection(map.layout, 32, x, y)));
+    return map;
+}
+
+/// Smooth bumps, high enough to shadow each other: 4 × 4 of them, no two rows alike.
+HeightMap roundStones() {
+    HeightMap map{Image(32, 32, 1), Wrap::Repeat};
+    for (int y = 0; y < 32; ++y)
+        for (int x = 0; x < 32; ++x) {
+            const double u = 2 * kPi * (x + 0.5) / 32, v = 2 * kPi * (y + 0.5) / 32;
+            map.heights.at(x, y, 0) = static_cast<float>(2 * std::sin(4 * u + 0.7 * std::sin(v)) * std::sin(4 * v));
+        }
     return map;
 }
 
@@ -57,7 +67,7 @@ void bake(const tests::Scratch& folder) {
     fresnel.textures.push_back(bakeFresnelTable({Rgb(1.5), Rgb(0)}, 64));
     writeAsset(fresnel, folder / "fresnel.exr");
 
-    const HeightMap heights = roughMap(32, 32, 5, Wrap::Repeat);
+    const HeightMap heights = roundStones();
     BumpMaps maps{32, 32, Wrap::Repeat, {}, {}, {}, {}, {}, {}};
     maps.normals = makeNormals(heights);
     maps.ellipses = fitEllipses(heights);
@@ -145,6 +155,8 @@ SceneDescription fullScene() {
     sun.light = {true, glm::normalize(Vec3(-1, 2, 1)), Rgb(0.8, 0.75, 0.7), {}};
     spot.name = "spot";
     spot.light = {false, {1.2, 2.4, 1.5}, Rgb(14), SpotCone{glm::normalize(Vec3(-1, -2.6, -1.4)), 0.3, 0.5}};
+    sun.shadow = spot.shadow = SceneShadow{};
+    sun.shadow->size = spot.shadow->size = 256;
     scene.lights = {sun, spot};
     scene.sky.asset = kSky;
     scene.sky.rotationY = 0.7;

@@ -58,7 +58,8 @@ TEST_F(Scenes, FullSceneShowsEveryPart) {
         SceneSwitches on;
     };
     std::vector<Part> parts = {{"lamps", {}},    {"ambient", {}},     {"relief", {}}, {"relief's shadows", {}},
-                               {"indirect", {}}, {"surrounding", {}}, {"sky", {}},    {"fast Phong", {}}};
+                               {"indirect", {}}, {"surrounding", {}}, {"sky", {}},    {"fast Phong", {}},
+                               {"shadows", {}}};
     parts[0].on.lamps = false;
     parts[1].on.ambient = false;
     parts[2].on.relief = false;
@@ -67,6 +68,7 @@ TEST_F(Scenes, FullSceneShowsEveryPart) {
     parts[5].on.surrounding = false;
     parts[6].on.sky = false;
     parts[7].on.reflectance = SceneReflectance::FastPhong;
+    parts[8].on.shadows = false;
     for (const Part& part : parts) {
         renderer.switches = part.on;
         const Image without = draw(renderer);
@@ -86,6 +88,7 @@ TEST_F(Scenes, DrawsWhatThePassesDraw) {
     scene.tracks.clear();
     scene.materials[0].relief->indirectLight = -1;
     scene.lights.pop_back();
+    scene.lights[0].shadow.reset();
     scene.sky.asset = -1;
     SceneRenderer renderer(loader_, scene);
     const Image picture = draw(renderer);
@@ -241,6 +244,45 @@ TEST_F(Scenes, BouncedLightIsMadeAgainOnlyWhenItsLightMoves) {
     EXPECT_EQ(draw(fresh).data(), moved.data());
 }
 
+double secondsOf(SceneRenderer& renderer, const char* pass, double time) {
+    const RenderTarget to = target();
+    renderer.render(to, time);
+    for (const PassTime& p : renderer.passes())
+        if (p.name == pass) return p.wallSeconds;
+    return -1;
+}
+
+TEST_F(Scenes, ShadowMapsAreDrawnAgainOnlyWhenSomethingMoved) {
+    SceneDescription scene = test::fullScene();
+    for (SceneLight& light : scene.lights) light.shadow->size = 2048;
+    SceneRenderer renderer(loader_, scene);
+    renderer.setTiming(true);
+    secondsOf(renderer, "shadow maps", 0.5);
+    double moving = 1, still = 1;
+    for (int i = 1; i <= 5; ++i) moving = std::min(moving, secondsOf(renderer, "shadow maps", 0.5 + 0.1 * i));
+    for (int i = 1; i <= 5; ++i) still = std::min(still, secondsOf(renderer, "shadow maps", 1.0));
+    EXPECT_LT(still, 0.2 * moving);
+    const Image turned = draw(renderer, 1.0);
+    SceneRenderer fresh(loader_, scene);
+    EXPECT_EQ(draw(fresh, 1.0).data(), turned.data()) << "a map that is out of date";
+}
+
+TEST_F(Scenes, CastingAndReceivingAreMarks) {
+    SceneDescription scene = test::fullScene();
+    SceneRenderer renderer(loader_, scene);
+    const Image all = draw(renderer);
+    renderer.switches.shadows = false;
+    const Image none = draw(renderer);
+    for (SceneNode& node : scene.nodes) node.castsShadow = false;
+    SceneRenderer casting(loader_, scene);
+    EXPECT_LT(relative(draw(casting), none), 1e-3) << "nobody casts";
+    scene = test::fullScene();
+    for (SceneNode& node : scene.nodes) node.receivesShadow = false;
+    SceneRenderer receiving(loader_, scene);
+    EXPECT_EQ(draw(receiving).data(), none.data()) << "nobody receives";
+    EXPECT_GT(relative(none, all), 1e-2);
+}
+
 TEST_F(Scenes, PassesAreTimedWhenAskedFor) {
     SceneRenderer renderer(loader_, test::fullScene());
     draw(renderer);
@@ -253,7 +295,7 @@ TEST_F(Scenes, PassesAreTimedWhenAskedFor) {
         EXPECT_GE(pass.wallSeconds, 0);
         EXPECT_GE(pass.gpuSeconds, 0);
     }
-    EXPECT_EQ(names, (std::vector<std::string>{"relief light", "surfaces", "sky"}));
+    EXPECT_EQ(names, (std::vector<std::string>{"relief light", "shadow maps", "surfaces", "sky"}));
 }
 
 TEST_F(Scenes, ProgramsAreOneForEachCombination) {

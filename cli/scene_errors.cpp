@@ -1,0 +1,107 @@
+#include "cli/scene_errors.hpp"
+
+#include <algorithm>
+
+#include "cli/output_file.hpp"
+
+namespace nacre::cli {
+namespace {
+
+/// An approximation, switched off in the picture and left out of the reference.
+struct Approximation {
+    const char* name;
+    SceneSwitches off;
+    SceneParts without;
+};
+
+std::vector<Approximation> approximationsOf(const SceneDescription& scene) {
+    bool brdf = false, relief = false, indirect = false, surrounding = false;
+    for (const SceneNode& node : scene.nodes) {
+        if (node.mesh < 0) continue;
+        const SceneMaterial& m = scene.materials[static_cast<std::size_t>(node.material)];
+        brdf = brdf || m.brdf >= 0;
+        relief = relief || (m.relief && m.relief->shadow != BumpShadow::None);
+        indirect = indirect || (m.relief && m.relief->indirectLight >= 0);
+        surrounding = surrounding || m.surrounding;
+    }
+    const bool shadows = std::any_of(scene.lights.begin(), scene.lights.end(),
+                                     [](const SceneLight& light) { return light.shadow.has_value(); });
+    std::vector<Approximation> out;
+    const auto add = [&out](const char* name) -> Approximation& {
+        return out.emplace_back(Approximation{name, {}, {}});
+    };
+    if (brdf && !scene.lights.empty()) add("brdf").without.bakedBrdf = true;
+    if (shadows) {
+        Approximation& a = add("shadow maps");
+        a.off.shadows = a.without.shadows = false;
+    }
+    if (relief) {
+        Approximation& a = add("relief shadows");
+        a.off.reliefShadow = BumpShadow::None;
+        a.without.reliefShadow = false;
+    }
+    if (indirect) {
+        Approximation& a = add("indirect light");
+        a.off.indirect = a.without.indirect = false;
+    }
+    if (surrounding) {
+        Approximation& a = add("surrounding");
+        a.off.surrounding = a.without.surrounding = false;
+    }
+    return out;
+}
+
+double squareError(const ImageDifference& d) { return std::pow(10, -d.psnrSrgb / 10); }
+
+}  // namespace
+
+Image shoot(SceneRenderer& renderer, const SceneShot& shot) {
+    const int n = shot.samples;
+    const RenderTarget target({.width = n * shot.width, .height = n * shot.height});
+    renderer.render(target, shot.time);
+    const Image fine = target.read();
+    if (n == 1) return fine;
+    Image out(shot.width, shot.height, 3);
+    for (int y = 0; y < shot.height; ++y)
+        for (int x = 0; x < shot.width; ++x) {
+            Rgb sum(0);
+            for (int k = 0; k < n * n; ++k) sum += fine.rgb(n * x + k % n, n * y + k / n);
+            out.setRgb(x, y, sum / double(n * n));
+        }
+    return out;
+}
+
+SceneErrors measureScene(SceneRenderer& renderer, const Image& picture, const SceneShot& shot, int rays, bool shares,
+                         const Progress& progress) {
+    const SceneDescription& scene = renderer.scene();
+    const std::vector<Approximation> list = shares ? approximationsOf(scene) : std::vector<Approximation>();
+    std::vector<SceneParts> parts(2);  // all, and with what meshes block
+    parts[1].occlusion = true;
+    for (const Approximation& a : list) parts.push_back(a.without);
+    const SceneTruths truths = openTruths(scene, 0, progress);
+    SceneTraceOptions options{.width = shot.width, .height = shot.height, .supersample = rays, .time = shot.time};
+    options.progress = progress;
+    const Stopwatch watch;
+    std::vector<Image> traced = traceScene(scene, scene.camera, truths, parts, options);
+    SceneErrors out;
+    out.seconds = watch.seconds();
+    out.notes = truths.notes;
+    out.white = pictureWhite(traced[0]);
+    out.all = compareImages(picture, traced[0], out.white);
+    out.occluded = compareImages(picture, traced[1], out.white);
+    const SceneSwitches before = renderer.switches;
+    for (std::size_t i = 0; i < list.size(); ++i) {
+        const bool brdf = list[i].without.bakedBrdf;
+        renderer.switches = list[i].off;
+        if (brdf) renderer.switches.reflectance = SceneReflectance::Direct;
+        const Image off = shoot(renderer, shot);
+        const ImageDifference without = compareImages(brdf ? picture : off, traced[i + 2], out.white);
+        out.shares.push_back({list[i].name, compareImages(off, traced[0], out.white).psnrSrgb, without.psnrSrgb,
+                              1 - squareError(without) / squareError(out.all)});
+    }
+    renderer.switches = before;
+    out.reference = std::move(traced[0]);
+    return out;
+}
+
+}  // namespace nacre::cli

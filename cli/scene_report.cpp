@@ -1,0 +1,176 @@
+#include "cli/scene_report.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "cli/bake_record.hpp"
+#include "cli/terminal.hpp"
+
+namespace nacre::cli {
+
+using nlohmann::json;
+
+namespace {
+
+std::size_t at(int index) { return static_cast<std::size_t>(index); }
+
+json listOf(const Vec3& v) { return {v.x, v.y, v.z}; }
+
+std::string assetName(const SceneDescription& scene, int asset) { return scene.assets[at(asset)].name; }
+
+const char* nameOf(BumpShadow shadow) {
+    static constexpr const char* kNames[] = {"none", "hard_ellipse", "ellipse", "hard_horizon", "horizon"};
+    return kNames[static_cast<int>(shadow)];
+}
+
+/// Role and asset of each that a material uses: {"brdf": "gold", "relief": "wall"}.
+json usesOf(const SceneDescription& scene, const SceneMaterial& material) {
+    json out = json::object();
+    const auto add = [&](const char* role, int asset) {
+        if (asset >= 0) out[role] = assetName(scene, asset);
+    };
+    add("brdf", material.brdf);
+    if (!material.model.empty()) out["model"] = material.model;
+    if (material.relief) {
+        add("relief", material.relief->asset);
+        out["relief_shadow"] = nameOf(material.relief->shadow);
+        if (material.relief->indirectLight >= 0)
+            out["indirect_light"] = scene.lights[at(material.relief->indirectLight)].name;
+    }
+    if (material.surrounding) {
+        add("reflection", material.surrounding->reflection.asset);
+        add("transmission", material.surrounding->transmission.asset);
+        add("diffuse", material.surrounding->diffuse.asset);
+        add("table", material.surrounding->table);
+    }
+    return out;
+}
+
+json meshesOf(const SceneDescription& scene) {
+    json out = json::array();
+    for (std::size_t i = 0; i < scene.meshes.size(); ++i) {
+        const Mesh& mesh = scene.meshes[i].mesh;
+        out.push_back({{"name", scene.meshes[i].name},
+                       {"triangles", mesh.triangles.size()},
+                       {"vertices", mesh.positions.size()},
+                       {"instances", std::count_if(scene.nodes.begin(), scene.nodes.end(), [&](const SceneNode& n) {
+                            return n.mesh == static_cast<int>(i);
+                        })}});
+    }
+    return out;
+}
+
+json materialsOf(const SceneDescription& scene) {
+    json out = json::array();
+    for (std::size_t i = 0; i < scene.materials.size(); ++i)
+        out.push_back({{"name", scene.materials[i].name},
+                       {"uses", usesOf(scene, scene.materials[i])},
+                       {"nodes", std::count_if(scene.nodes.begin(), scene.nodes.end(), [&](const SceneNode& n) {
+                            return n.material == static_cast<int>(i);
+                        })}});
+    return out;
+}
+
+json lightsOf(const SceneDescription& scene) {
+    json out = json::array();
+    for (const SceneLight& l : scene.lights) {
+        json entry = {{"name", l.name},
+                      {"type", l.light.directional ? "directional"
+                               : l.light.cone      ? "spot"
+                                                   : "point"},
+                      {"color", listOf(l.light.color)}};
+        if (l.node >= 0) entry["node"] = scene.nodes[at(l.node)].name;
+        if (l.shadow)
+            entry["shadow"] = {{"size", l.shadow->size}, {"bits", l.shadow->bits}, {"filter", l.shadow->filter}};
+        out.push_back(entry);
+    }
+    return out;
+}
+
+json assetsOf(const SceneDescription& scene) {
+    json out = json::array();
+    for (const SceneAsset& asset : scene.assets) {
+        const AssetState state = stateOf(asset);
+        json entry = {{"name", asset.name}, {"file", asset.file.string()}, {"state", toString(state.kind)}};
+        std::error_code none;
+        const std::uintmax_t bytes = std::filesystem::file_size(asset.file, none);
+        if (!none) entry["bytes"] = bytes;
+        if (!state.why.empty()) entry["why"] = state.why;
+        if (asset.bake)
+            entry["bake"] = {
+                {"verb", asset.bake->verb}, {"source", asset.bake->source}, {"options", asset.bake->options}};
+        out.push_back(entry);
+    }
+    return out;
+}
+
+std::string usesText(const json& uses) {
+    std::string out;
+    for (const auto& [role, what] : uses.items())
+        out += fmt::format("{}{} {}", out.empty() ? "" : ", ", role, what.get<std::string>());
+    return out.empty() ? "ambient alone" : out;
+}
+
+}  // namespace
+
+json sceneReport(const SceneDescription& scene, const std::vector<std::string>& notes) {
+    std::size_t drawn = 0, instances = 0;
+    for (const SceneNode& node : scene.nodes) {
+        if (node.mesh < 0) continue;
+        ++instances;
+        drawn += scene.meshes[at(node.mesh)].mesh.triangles.size();
+    }
+    const Camera& camera = scene.camera;
+    json view = {
+        {"eye", listOf(camera.eye)}, {"target", listOf(camera.target)}, {"near", camera.near}, {"far", camera.far}};
+    view[camera.orthographic ? "orthographic_height" : "fov_y_deg"] =
+        camera.orthographic ? camera.height : camera.fovY * 180 / kPi;
+    return {{"file", scene.file.string()},
+            {"nodes", scene.nodes.size()},
+            {"moving_nodes",
+             std::count_if(scene.nodes.begin(), scene.nodes.end(), [](const SceneNode& n) { return !n.isStatic; })},
+            {"instances", instances},
+            {"triangles", drawn},
+            {"meshes", meshesOf(scene)},
+            {"materials", materialsOf(scene)},
+            {"lights", lightsOf(scene)},
+            {"assets", assetsOf(scene)},
+            {"camera", view},
+            {"tracks", scene.tracks.size()},
+            {"duration", scene.duration},
+            {"notes", notes}};
+}
+
+std::string sceneText(const json& r) {
+    const auto count = [&](const char* key) { return r[key].is_array() ? r[key].size() : r[key].get<std::size_t>(); };
+    std::string out =
+        fmt::format("{}: {} triangles in {} instances of {} meshes, {} nodes ({} moving), {} materials, {} lights\n",
+                    r["file"].get<std::string>(), count("triangles"), count("instances"), count("meshes"),
+                    count("nodes"), count("moving_nodes"), count("materials"), count("lights"));
+    for (const json& m : r["meshes"])
+        out +=
+            fmt::format("  mesh      {:<20} {:>9} triangles, {} vertices, {} instances\n", m["name"].get<std::string>(),
+                        m["triangles"].get<std::size_t>(), m["vertices"].get<std::size_t>(), m["instances"].get<int>());
+    for (const json& m : r["materials"])
+        out += fmt::format("  material  {:<20} {}\n", m["name"].get<std::string>(), usesText(m["uses"]));
+    for (const json& l : r["lights"])
+        out += fmt::format("  light     {:<20} {}{}{}\n", l["name"].get<std::string>(), l["type"].get<std::string>(),
+                           l.contains("node") ? " on " + l["node"].get<std::string>() : "",
+                           l.contains("shadow")
+                               ? fmt::format(", shadow {} texels of {} bits", l["shadow"]["size"].get<int>(),
+                                             l["shadow"]["bits"].get<int>())
+                               : "");
+    for (const json& a : r["assets"])
+        out += fmt::format("  asset     {:<20} {:<8} {}{}{}\n", a["name"].get<std::string>(),
+                           a["state"].get<std::string>(), a["file"].get<std::string>(),
+                           a.contains("bytes") ? ", " + humanBytes(a["bytes"].get<std::size_t>()) : "",
+                           a.contains("why") ? ": " + a["why"].get<std::string>() : "");
+    if (r["duration"].get<double>() > 0)
+        out +=
+            fmt::format("  animation {} tracks, {:g} s\n", r["tracks"].get<std::size_t>(), r["duration"].get<double>());
+    for (const json& note : r["notes"]) out += "  note      " + note.get<std::string>() + "\n";
+    return out;
+}
+
+}  // namespace nacre::cli

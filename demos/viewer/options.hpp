@@ -1,0 +1,24 @@
+// What the command line of nacre_view says.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <vector>
+
+namespace nacre {
+
+struct ViewerOptions {
+    std::filesystem::path file;
+    int width = 800, height = 600;  ///< of the picture; the panel stands beside it
+    int samples = 1;                ///< per pixel
+    bool panel = true;
+    std::optional<double> white;  ///< what becomes 255; none: fitted to the first picture
+    std::vector<std::filesystem::path> assetFolders;
+    std::filesystem::path screenshots = ".";
+    int referencePasses = 16;
+    int referenceScale = 2;  ///< the reference has 1/n of the picture's edges
+    int benchmark = 0;       ///< frames to draw and time; 0: stay open
+    bool trace = false;      ///< one JSON line on standard output for each frame shown
+};
+
+}  // namespace nacre

@@ -1,0 +1,312 @@
+#include "demos/viewer/session.hpp"
+
+#include <epoxy/gl.h>
+#include <fmt/chrono.h>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <set>
+
+#include "core/error.hpp"
+#include "demos/viewer/scene_edits.hpp"
+#include "shading/image_output.hpp"
+#include "shading/scene_file.hpp"
+
+namespace nacre {
+
+namespace fs = std::filesystem;
+
+static bool sameCamera(const Camera& a, const Camera& b) {
+    return a.eye == b.eye && a.target == b.target && a.up == b.up && a.orthographic == b.orthographic &&
+           a.fovY == b.fovY && a.height == b.height && a.near == b.near && a.far == b.far;
+}
+
+ViewerSession::ViewerSession(SessionOptions options) : options_(std::move(options)) {
+    loader_ = std::make_unique<ProgramLoader>();
+    renderer_ = std::make_unique<SceneRenderer>(*loader_, nacre::readScene(options_.file));
+    bounds_ = boundsOf(scene());
+    camera = scene().camera;
+    playing = scene().duration > 0;
+    watchFiles();
+}
+
+void ViewerSession::restore(const ViewerSession& other) {
+    renderer_->setScene(other.scene());
+    options_ = other.options_;
+    camera = other.camera;
+    time = other.time;
+    playing = other.playing;
+    switches = other.switches;
+    problems_ = other.problems_;
+    bounds_ = boundsOf(scene());
+    watchFiles();
+    touch();
+}
+
+std::vector<fs::path> ViewerSession::assetFolders() const {
+    const auto folderOf = [](const fs::path& file) { return fs::absolute(file).lexically_normal().parent_path(); };
+    std::set<fs::path> out = {folderOf(options_.file)};
+    for (const SceneAsset& asset : scene().assets) out.insert(folderOf(asset.file));
+    for (const fs::path& folder : options_.assetFolders) out.insert(fs::absolute(folder).lexically_normal());
+    return {out.begin(), out.end()};
+}
+
+void ViewerSession::move(const Camera& to) {
+    camera = to;
+    camera.near = camera.far = 0;
+    camera = withDepth(camera, bounds_);
+    touch();
+}
+
+void ViewerSession::resetCamera() {
+    camera = scene().camera;
+    touch();
+}
+
+void ViewerSession::advance(double seconds) {
+    if (playing) seek(time + seconds);
+}
+
+void ViewerSession::seek(double to) {
+    const double duration = scene().duration;
+    if (!(duration > 0)) return;
+    time = to - duration * std::floor(to / duration);
+    touch();
+}
+
+void ViewerSession::resize(int width, int height) {
+    if (width == width_ && height == height_) return;
+    width_ = width;
+    height_ = height;
+    touch();
+}
+
+RenderTarget& ViewerSession::sizedTarget() {
+    if (!target_ || target_->width() != width_ || target_->height() != height_)
+        target_.emplace(RenderTargetOptions{.width = width_, .height = height_, .samples = options_.samples});
+    return *target_;
+}
+
+void ViewerSession::drawOnce() {
+    if (width_ < 1 || height_ < 1) return;
+    renderer_->switches = switches;
+    renderer_->setTiming(timing);
+    const auto begin = std::chrono::steady_clock::now();
+    renderer_->render(sizedTarget(), camera, time);
+    glFinish();
+    passes_ = renderer_->passes();
+    seconds_ = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+    ++pictures_;
+}
+
+bool ViewerSession::draw() {
+    if (drawn_ == revision_ || width_ < 1 || height_ < 1) return false;
+    drawn_ = revision_;
+    return attempt("picture", [&] { drawOnce(); });
+}
+
+Image ViewerSession::pictureOf(int width, int height, int n) {
+    require(width >= 1 && height >= 1 && n >= 1, "pictureOf: sizes must be >= 1");
+    const RenderTarget other({.width = n * width, .height = n * height});
+    renderer_->switches = switches;
+    renderer_->setTiming(false);
+    renderer_->render(other, camera, time);
+    const Image fine = other.read();
+    Image out(width, height, 3);
+    for (int y = 0; y < height; ++y)
+        for (int x = 0; x < width; ++x) {
+            Rgb sum(0);
+            for (int k = 0; k < n * n; ++k) sum += fine.rgb(n * x + k % n, n * y + k / n);
+            out.setRgb(x, y, sum / double(n * n));
+        }
+    return out;
+}
+
+bool ViewerSession::attempt(const std::string& about, const std::function<void()>& work) {
+    try {
+        work();
+    } catch (const std::exception& error) {
+        problems_[about] = error.what();
+        return false;
+    }
+    problems_.erase(about);
+    return true;
+}
+
+/// A scene whose shaders don't compile is no good one either: the first picture decides.
+void ViewerSession::apply(SceneDescription next) {
+    SceneDescription last = scene();
+    renderer_->setScene(std::move(next));
+    ++materials_;
+    touch();
+    try {
+        drawOnce();
+    } catch (...) {
+        renderer_->setScene(std::move(last));
+        throw;
+    }
+    bounds_ = boundsOf(scene());
+    if (scene().duration <= 0) time = 0, playing = false;
+}
+
+bool ViewerSession::setLight(std::size_t light, const SceneLight& value) {
+    touch();
+    return attempt("light", [&] { renderer_->setLight(light, value); });
+}
+
+bool ViewerSession::setNodeMaterial(std::size_t node, int material) {
+    return attempt("material", [&] {
+        const int last = scene().nodes.at(node).material;
+        renderer_->setNodeMaterial(node, material);
+        touch();
+        try {
+            drawOnce();
+        } catch (...) {
+            renderer_->setNodeMaterial(node, last);
+            throw;
+        }
+    });
+}
+
+bool ViewerSession::setNodeMaterial(std::size_t node, const std::string& text) {
+    return attempt("material", [&] {
+        SceneDescription next = scene();
+        next.nodes.at(node).material = materialFor(next, text, next.nodes.at(node).material);
+        apply(std::move(next));
+    });
+}
+
+bool ViewerSession::setMaterial(std::size_t material, const SceneMaterial& value) {
+    return attempt("material", [&] {
+        const SceneMaterial last = scene().materials.at(material);
+        renderer_->setMaterial(material, value);
+        ++materials_;
+        touch();
+        try {
+            drawOnce();
+        } catch (...) {
+            renderer_->setMaterial(material, last);
+            throw;
+        }
+    });
+}
+
+bool ViewerSession::replaceAsset(std::size_t asset, const fs::path& file) {
+    return attempt("asset", [&] {
+        SceneDescription next = scene();
+        next.assets.at(asset).file = file;
+        next.assets.at(asset).bake.reset();
+        next.assets.at(asset).source.clear();
+        apply(std::move(next));
+        watchFiles();
+    });
+}
+
+bool ViewerSession::setSky(const SceneSky& value) {
+    touch();
+    ++materials_;
+    return attempt("sky", [&] { renderer_->setSky(value); });
+}
+
+bool ViewerSession::open(const fs::path& file) {
+    return attempt("scene", [&] {
+        SceneDescription next = nacre::readScene(file);
+        const Camera its = next.camera;
+        const Camera last = camera;
+        camera = its;
+        try {
+            apply(std::move(next));
+        } catch (...) {
+            camera = last;
+            throw;
+        }
+        options_.file = file;
+        time = 0;
+        playing = scene().duration > 0;
+        watchFiles();
+    });
+}
+
+void ViewerSession::watchFiles() {
+    std::set<fs::path> own;  // assets are watched by the renderer; what they are baked from changes no picture
+    for (const SceneAsset& asset : scene().assets) {
+        own.insert(asset.file.lexically_normal());
+        if (asset.bake)
+            for (const std::string& input : asset.bake->inputs) own.insert(fs::path(input).lexically_normal());
+    }
+    std::vector<fs::path> files;
+    for (const fs::path& file : filesNamedIn(options_.file))
+        if (own.count(file.lexically_normal()) == 0) files.push_back(file);
+    sceneFiles_.watch(files);
+    std::vector<fs::path> shaders;
+    for (const fs::path& folder : loader_->folders())
+        for (fs::path& file : filesUnder(folder)) shaders.push_back(std::move(file));
+    shaderFiles_.watch(shaders);
+}
+
+/// Keeps the view, unless the file's own camera is another one now.
+void ViewerSession::readScene() {
+    attempt("scene", [&] {
+        SceneDescription next = nacre::readScene(options_.file);
+        const Camera last = camera;
+        if (!sameCamera(next.camera, scene().camera)) camera = next.camera;
+        try {
+            apply(std::move(next));
+        } catch (...) {
+            camera = last;
+            throw;
+        }
+    });
+    watchFiles();
+}
+
+/// A second renderer beside the first: passes keep programs, and the old ones must work until the new ones do.
+void ViewerSession::readShaders() {
+    attempt("shaders", [&] {
+        auto loader = std::make_unique<ProgramLoader>(loader_->dialect(), loader_->folders());
+        auto renderer = std::make_unique<SceneRenderer>(*loader, scene());
+        renderer->switches = switches;
+        const RenderTarget trial({.width = 8, .height = 8});
+        renderer->render(trial, camera, time);
+        loader->load("fullscreen.vert.glsl", "present.frag.glsl");
+        renderer_ = std::move(renderer);
+        loader_ = std::move(loader);
+        touch();
+    });
+    watchFiles();
+}
+
+bool ViewerSession::poll() {
+    bool news = false;
+    for (const AssetChange& change : renderer_->reloadAssets()) {
+        news = true;
+        const std::string about = fmt::format("asset '{}'", change.name);
+        if (change.problem.empty())
+            problems_.erase(about);
+        else
+            problems_[about] = change.problem;
+        ++materials_;
+        touch();
+    }
+    if (!sceneFiles_.changed().empty()) readScene(), news = true;
+    if (!shaderFiles_.changed().empty()) readShaders(), news = true;
+    return news;
+}
+
+void ViewerSession::reload() {
+    readScene();
+    readShaders();
+    touch();
+}
+
+fs::path writeScreenshot(const Image& image, const fs::path& folder, double white) {
+    const std::string stem = fmt::format("nacre-{:%Y%m%d-%H%M%S}", fmt::localtime(std::time(nullptr)));
+    fs::path png = folder / (stem + ".png");
+    for (int again = 2; fs::exists(png); ++again) png = folder / fmt::format("{}-{}.png", stem, again);
+    writePng(image, png, {white});
+    writeExr(image, fs::path(png).replace_extension(".exr"));
+    return png;
+}
+
+}  // namespace nacre
