@@ -102,10 +102,10 @@ double shadowLit(const ShadowView& view, std::span<const Image> layers, const Ve
         for (int i = 0; i < n; ++i) {
             const Vec2 at = first + Vec2(i, j);
             const auto texel = [&](double c) { return static_cast<int>(std::clamp(c, 0.0, view.size - 1.0)); };
-            const double d = layer.at(texel(at.x), texel(at.y), 0);
+            const double stored = layer.at(texel(at.x), texel(at.y), 0), d = stored >= 1 ? kShadowNothing : stored;
             const Vec2 map = (at + 0.5) * (2.0 / view.size) - 1.0;
-            const Vec3 stored = storedPoint(view, place, map, view.near + (view.far - view.near) * d);
-            if (d >= kShadowNothing || glm::dot(m, stored) >= plane) sum += tapWeight(i, n, f.x) * tapWeight(j, n, f.y);
+            const Vec3 point = storedPoint(view, place, map, view.near + (view.far - view.near) * d);
+            if (glm::dot(m, point) >= plane) sum += tapWeight(i, n, f.x) * tapWeight(j, n, f.y);
         }
     return n == 1 ? sum : sum / ((n - 1.0) * (n - 1.0));
 }

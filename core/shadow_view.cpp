@@ -42,7 +42,8 @@ Bounds moved(const Bounds& b, const glm::dmat4& m) {
 }
 
 void check(const SceneShadow& o, const Light& light, const Bounds& scene, const Camera* camera) {
-    require(o.size >= 8 && o.size <= 16384, fmt::format("shadow map: expected a size of 8 to 16384, found {}", o.size));
+    require(o.size >= 8 && o.size <= 16384 && o.size % 2 == 0,
+            fmt::format("shadow map: expected an even size of 8 to 16384, found {}", o.size));
     require(o.bits == 16 || o.bits == 32, fmt::format("shadow map: expected 16 or 32 bits, found {}", o.bits));
     require(o.filter >= 1 && o.filter <= 9, fmt::format("shadow map: expected a filter of 1 to 9, found {}", o.filter));
     require(o.cascades >= 1 && o.cascades <= 4,
@@ -174,6 +175,7 @@ ShadowView fitShadow(const SceneShadow& options, const Light& light, const Bound
     check(options, light, scene, camera);
     ShadowView view;
     view.size = options.size;
+    view.bits = options.bits;
     view.filter = options.filter;
     view.bias = options.bias;
     if (light.directional) {

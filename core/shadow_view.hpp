@@ -21,9 +21,8 @@ struct Bounds {
 /// Of the mesh's vertices, moved.
 Bounds boundsOf(const Mesh& mesh, const glm::dmat4& toWorld = glm::dmat4(1));
 
-/// A stored depth from here on says that nothing is there (1, as the last but one step of 16 bits and rounding leave
-/// it).
-inline constexpr double kShadowNothing = 0.999995;
+/// A stored depth d ≥ 1 says that nothing is there, and counts as this one: no receiver's plane is behind it.
+inline constexpr double kShadowNothing = 1e6;
 
 /// One layer each: Spot. Six, ±X ±Y ±Z of the world about the light: Cube. The hemispheres about −y and +y:
 /// DualParaboloid (Brabec, Annen, Seidel 2002). One a cascade: Directional.
@@ -36,6 +35,7 @@ enum class ShadowKind { Spot, Directional, Cube, DualParaboloid };
 struct ShadowView {
     ShadowKind kind = ShadowKind::Spot;
     int size = 1024;  ///< texels along an edge
+    int bits = 32;    ///< of a stored depth, 16 or 32
     int filter = 3;   ///< texels along the filter's edge; their box is filter − 1 texels wide (1: one texel)
     glm::dmat4 fromWorld{1};
     double near = 0, far = 1;    ///< [world units]
@@ -52,8 +52,8 @@ struct ShadowView {
 /// DualParaboloid. Directional: the square that holds the box; with cascades > 1, squares about the camera's depth
 /// ranges, ranges from near to the box's farthest point in steps halfway between equal and equal ratios, moved by whole
 /// texels. near, far not given: those of the box; near of a point light is at least far / 1e5. \param camera  of the
-/// cascades; may be null for one. \param aspect  width / height of its picture \throws std::invalid_argument: size < 8,
-/// bits other than 16 and 32, filter outside 1..9, cascades outside 1..4 or
+/// cascades; may be null for one. \param aspect  width / height of its picture \throws std::invalid_argument: size < 8
+/// or odd, bits other than 16 and 32, filter outside 1..9, cascades outside 1..4 or
 ///         above 1 without camera, bias < 0, near and far not 0 ≤ near < far, an empty box, a broken light
 ShadowView fitShadow(const SceneShadow& options, const Light& light, const Bounds& scene,
                      const Camera* camera = nullptr, double aspect = 1);

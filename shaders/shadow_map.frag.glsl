@@ -1,10 +1,8 @@
-// Linear depth of a caster; the depth buffer picks by it, too.
+// Linear depth of a caster, into the depth buffer, which picks the nearest.
 #include "nacre/bind/shadow_map.glsl"
 #include "nacre/shadow.glsl"
 
 in vec3 v_place;
-
-out vec4 color;
 
 void main() {
     float z = v_place.z;
@@ -21,5 +19,4 @@ void main() {
     float depth = (z - nacre_shadow_drawn.x) * nacre_shadow_drawn.y;
     if (depth < 0.0 || depth > 1.0) discard;
     gl_FragDepth = depth;
-    color = nacre_shadow_bits == 16 ? vec4(nacre_shadow_encode16(depth), 0.0, 1.0) : vec4(depth, 0.0, 0.0, 1.0);
 }

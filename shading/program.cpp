@@ -61,6 +61,8 @@ std::string typeName(GLenum type) {
             return "sampler2DArray";
         case GL_SAMPLER_3D:
             return "sampler3D";
+        case GL_UNSIGNED_INT_SAMPLER_2D_ARRAY:
+            return "usampler2DArray";
         case GL_SAMPLER_CUBE:
             return "samplerCube";
         default:

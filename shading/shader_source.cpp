@@ -34,7 +34,8 @@ std::string header(Glsl dialect) {
             return "#version 300 es\n"
                    "precision highp float;\nprecision highp int;\n"
                    "precision highp sampler2D;\nprecision highp samplerCube;\nprecision highp sampler3D;\n"
-                   "precision highp sampler2DArray;\nprecision highp sampler2DShadow;\n";
+                   "precision highp sampler2DArray;\nprecision highp usampler2DArray;\nprecision highp "
+                   "sampler2DShadow;\n";
     }
     return {};
 }

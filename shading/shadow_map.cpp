@@ -3,10 +3,14 @@
 #include <epoxy/gl.h>
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
+#include <bit>
+#include <cstdint>
 
 #include "core/error.hpp"
 #include "shading/context.hpp"
+#include "shading/draw.hpp"
 #include "shading/pass_state.hpp"
 
 namespace nacre {
@@ -26,24 +30,10 @@ void setFaces(SceneShadow::Faces faces, const glm::dmat4& toWorld) {
     glCullFace(faces == SceneShadow::Faces::Front ? GL_BACK : GL_FRONT);
 }
 
-class Dither {  // may move the codes of 16 bits
-public:
-    Dither() : on_(glIsEnabled(GL_DITHER)) { glDisable(GL_DITHER); }
-    ~Dither() {
-        if (on_) glEnable(GL_DITHER);
-    }
-    Dither(const Dither&) = delete;
-    Dither& operator=(const Dither&) = delete;
-
-private:
-    GLboolean on_;
-};
-
-void setLayer(const Program& program, const ShadowView& view, int bits, int layer) {
+void setLayer(const Program& program, const ShadowView& view, int layer) {
     const bool paraboloid = view.kind == ShadowKind::DualParaboloid;
     if (!paraboloid) program.set("nacre_shadow_to_clip", glm::mat4(shadowClip(view, layer)));
     program.set("nacre_shadow_drawn", glm::vec4(Vec4(view.near, 1 / (view.far - view.near), view.scale, view.size)));
-    program.set("nacre_shadow_bits", bits);
 }
 
 void drawCasters(const Program& program, const ShadowView& view, int layer, const ShadowScene& scene,
@@ -56,6 +46,21 @@ void drawCasters(const Program& program, const ShadowView& view, int layer, cons
     }
 }
 
+void unfiltered(GLenum target) {
+    glTexParameteri(target, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
+    glTexParameteri(target, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
+    glTexParameteri(target, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
+    glTexParameteri(target, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
+    glBindTexture(target, 0);
+}
+
+void checkComplete(const std::string& what) {
+    checkGl(what);
+    const GLenum status = glCheckFramebufferStatus(GL_FRAMEBUFFER);
+    if (status != GL_FRAMEBUFFER_COMPLETE)
+        throw Error(fmt::format("{}: expected a complete framebuffer, found status 0x{:04x}", what, status));
+}
+
 bool fits(const Light& light, ShadowKind kind) { return light.directional == (kind == ShadowKind::Directional); }
 
 }  // namespace
@@ -64,36 +69,46 @@ void ShadowMap::allocate(int layers) {
     if (texture_ && layers_ == layers) return;
     const bool half = options_.bits == 16;
     const int size = options_.size;
-    TextureName texture;
+    TextureName texture, depth;
     glBindTexture(GL_TEXTURE_2D_ARRAY, texture.name());
-    glTexImage3D(GL_TEXTURE_2D_ARRAY, 0, half ? GL_RG8 : GL_R32F, size, size, layers, 0, half ? GL_RG : GL_RED,
-                 half ? GL_UNSIGNED_BYTE : GL_FLOAT, nullptr);
-    glTexParameteri(GL_TEXTURE_2D_ARRAY, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
-    glTexParameteri(GL_TEXTURE_2D_ARRAY, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
-    glTexParameteri(GL_TEXTURE_2D_ARRAY, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
-    glTexParameteri(GL_TEXTURE_2D_ARRAY, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
-    glBindTexture(GL_TEXTURE_2D_ARRAY, 0);
-    Renderbuffer depth;
-    glBindRenderbuffer(GL_RENDERBUFFER, depth.name());
-    glRenderbufferStorage(GL_RENDERBUFFER, GL_DEPTH_COMPONENT24, size, size);
-    glBindRenderbuffer(GL_RENDERBUFFER, 0);
-    FramebufferName framebuffer;
-    glBindFramebuffer(GL_FRAMEBUFFER, framebuffer.name());
-    glFramebufferTextureLayer(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, texture.name(), 0, 0);
-    glFramebufferRenderbuffer(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_RENDERBUFFER, depth.name());
-    const GLenum status = glCheckFramebufferStatus(GL_FRAMEBUFFER);
-    glBindFramebuffer(GL_FRAMEBUFFER, 0);
+    glTexImage3D(GL_TEXTURE_2D_ARRAY, 0, half ? GL_RGBA16UI : GL_RGBA32UI, size / 2, size / 2, layers, 0,
+                 GL_RGBA_INTEGER, half ? GL_UNSIGNED_SHORT : GL_UNSIGNED_INT, nullptr);
+    unfiltered(GL_TEXTURE_2D_ARRAY);
+    glBindTexture(GL_TEXTURE_2D, depth.name());
+    glTexImage2D(GL_TEXTURE_2D, 0, GL_DEPTH_COMPONENT32F, size, size, 0, GL_DEPTH_COMPONENT, GL_FLOAT, nullptr);
+    unfiltered(GL_TEXTURE_2D);
     const std::string what = fmt::format("shadow map of {} x {} x {}, {} bits", size, size, layers, options_.bits);
-    checkGl(what);
-    if (status != GL_FRAMEBUFFER_COMPLETE)
-        throw Error(
-            fmt::format("{}: expected a complete framebuffer (OpenGL ES needs EXT_color_buffer_float for 32 "
-                        "bits), found status 0x{:04x}",
-                        what, status));
+    FramebufferName drawn, stored;
+    glBindFramebuffer(GL_FRAMEBUFFER, drawn.name());
+    glFramebufferTexture2D(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_TEXTURE_2D, depth.name(), 0);
+    const GLenum none = GL_NONE;
+    glDrawBuffers(1, &none);
+    glReadBuffer(GL_NONE);
+    checkComplete(what);
+    glBindFramebuffer(GL_FRAMEBUFFER, stored.name());
+    glFramebufferTextureLayer(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, texture.name(), 0, 0);
+    checkComplete(what);
+    glBindFramebuffer(GL_FRAMEBUFFER, 0);
     texture_ = std::move(texture);
     depth_ = std::move(depth);
-    framebuffer_ = std::move(framebuffer);
+    drawn_ = std::move(drawn);
+    stored_ = std::move(stored);
     layers_ = layers;
+}
+
+void ShadowMap::store(const Program& program, int layer) const {
+    glBindFramebuffer(GL_FRAMEBUFFER, stored_->name());
+    glFramebufferTextureLayer(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, texture_->name(), 0, layer);
+    glViewport(0, 0, options_.size / 2, options_.size / 2);
+    glActiveTexture(GL_TEXTURE0);
+    glBindTexture(GL_TEXTURE_2D, depth_->name());
+    program.set("nacre_shadow_depth", 0);
+    program.set("nacre_shadow_bits", options_.bits);
+    glDisable(GL_DEPTH_TEST);
+    glDisable(GL_CULL_FACE);
+    drawFullscreen(VertexArray());
+    glEnable(GL_DEPTH_TEST);
+    glBindTexture(GL_TEXTURE_2D, 0);
 }
 
 void ShadowMap::update(ProgramLoader& loader, const Light& light, const ShadowScene& scene) {
@@ -101,24 +116,22 @@ void ShadowMap::update(ProgramLoader& loader, const Light& light, const ShadowSc
     const ShadowView view = fitShadow(options_, light, scene.bounds, scene.camera, scene.aspect);
     ShaderDefines defines;
     if (view.kind == ShadowKind::DualParaboloid) defines.emplace_back("NACRE_SHADOW_PARABOLOID", "1");
-    const Program& program = loader.load("shadow_map.vert.glsl", "shadow_map.frag.glsl", defines);
+    const Program& draw = loader.load("shadow_map.vert.glsl", "shadow_map.frag.glsl", defines);
+    const Program& blocks = loader.load("fullscreen.vert.glsl", "shadow_blocks.frag.glsl");
     allocate(view.layers());
     view_ = view;
-    const Dither off;
-    glBindFramebuffer(GL_FRAMEBUFFER, framebuffer_->name());
-    glViewport(0, 0, view.size, view.size);
     glEnable(GL_DEPTH_TEST);
     glDepthFunc(GL_LESS);
     glDepthMask(GL_TRUE);
     glDisable(GL_BLEND);
-    glClearColor(1, 1, 1, 1);
     for (int layer = 0; layer < layers_; ++layer) {
-        glFramebufferTextureLayer(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, texture_->name(), 0, layer);
-        glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
-        setLayer(program, view, options_.bits, layer);
-        drawCasters(program, view, layer, scene, options_.faces);
+        glBindFramebuffer(GL_FRAMEBUFFER, drawn_->name());
+        glViewport(0, 0, view.size, view.size);
+        glClear(GL_DEPTH_BUFFER_BIT);
+        setLayer(draw, view, layer);
+        drawCasters(draw, view, layer, scene, options_.faces);
+        store(blocks, layer);
     }
-    glDisable(GL_CULL_FACE);
     glFrontFace(GL_CCW);
     glBindFramebuffer(GL_FRAMEBUFFER, 0);
     checkGl("drawing a shadow map");
@@ -131,20 +144,24 @@ std::size_t ShadowMap::bytes() const {
 
 std::vector<Image> ShadowMap::download() const {
     require(drawn(), "shadow map: nothing drawn yet");
-    const std::size_t texels = static_cast<std::size_t>(options_.size) * static_cast<std::size_t>(options_.size);
-    std::vector<float> all(2 * texels * static_cast<std::size_t>(layers_));
+    const auto edge = static_cast<std::size_t>(options_.size) / 2;
+    std::vector<std::uint32_t> all(4 * edge * edge * static_cast<std::size_t>(layers_));
     glBindTexture(GL_TEXTURE_2D_ARRAY, texture_->name());
     glPixelStorei(GL_PACK_ALIGNMENT, 1);
-    glGetTexImage(GL_TEXTURE_2D_ARRAY, 0, GL_RG, GL_FLOAT, all.data());
+    glGetTexImage(GL_TEXTURE_2D_ARRAY, 0, GL_RGBA_INTEGER, GL_UNSIGNED_INT, all.data());
     glBindTexture(GL_TEXTURE_2D_ARRAY, 0);
     checkGl("reading a shadow map");
+    const auto decode = [&](std::uint32_t code) {
+        return std::min(1.0f,
+                        options_.bits == 16 ? static_cast<float>(code) * (1.0f / 65535) : std::bit_cast<float>(code));
+    };
     std::vector<Image> out;
-    for (std::size_t layer = 0, at = 0; layer < static_cast<std::size_t>(layers_); ++layer) {
+    std::size_t at = 0;
+    for (int layer = 0; layer < layers_; ++layer) {
         Image& image = out.emplace_back(options_.size, options_.size, 1);
-        for (float& depth : image.data()) {
-            depth = options_.bits == 16 ? (65280 * all[at] + 255 * all[at + 1]) / 65535 : all[at];
-            at += 2;
-        }
+        for (int y = 0; y < options_.size; y += 2)
+            for (int x = 0; x < options_.size; x += 2)
+                for (int k = 0; k < 4; ++k) image.at(x + k % 2, y + k / 2, 0) = decode(all[at++]);
     }
     return out;
 }
@@ -173,6 +190,7 @@ ShaderDefines shadowDefines(std::span<const ShadowView* const> views) {
         if (out.empty()) out.emplace_back("NACRE_SHADOWS", "1");
         out.emplace_back(fmt::format("NACRE_SHADOW_{}", i), kKinds[static_cast<std::size_t>(views[i]->kind)]);
         out.emplace_back(fmt::format("NACRE_SHADOW_N_{}", i), std::to_string(views[i]->filter));
+        out.emplace_back(fmt::format("NACRE_SHADOW_B_{}", i), std::to_string(views[i]->bits));
         out.emplace_back(fmt::format("NACRE_SHADOW_C_{}", i), std::to_string(views[i]->cascades.size()));
     }
     return out;
@@ -189,10 +207,12 @@ void bindShadows(const Program& program, std::span<const ShadowMap* const> shado
         const ShadowView& view = shadows[i]->view();
         fromWorld[i] = glm::mat4(view.fromWorld);
         ranges[i] = glm::vec4(Vec4(view.near, view.far - view.near, view.resolution, view.bias.value_or(-1)));
-        const bool half = shadows[i]->options().bits == 16;
-        sizes[i] = half ? glm::vec4(view.size, view.scale, 65280.0f / 65535, 255.0f / 65535)
-                        : glm::vec4(view.size, view.scale, 1, 0);
-        for (std::size_t k = 0; k < view.cascades.size(); ++k) cascades[4 * i + k] = glm::vec4(view.cascades[k], 0);
+        const double half = view.size / 2.0;
+        sizes[i] = glm::vec4(Vec4(view.size, half, view.scale * half, 1 / (view.scale * half)));
+        for (std::size_t k = 0; k < view.cascades.size(); ++k) {
+            const Vec3& c = view.cascades[k];
+            cascades[4 * i + k] = glm::vec4(Vec4((c.x + 1) * half, (c.y + 1) * half, c.z * half, 1 / (c.z * half)));
+        }
         const int unit = firstUnit + static_cast<int>(i);
         glActiveTexture(GL_TEXTURE0 + static_cast<GLenum>(unit));
         glBindTexture(GL_TEXTURE_2D_ARRAY, shadows[i]->texture_->name());

@@ -26,10 +26,11 @@ struct ShadowScene {
     double aspect = 1;
 };
 
-/// The maps of one light: an array texture with the layers of ShadowView. 32 bits: R32F, which OpenGL ES renders to
-/// with EXT_color_buffer_float. 16 bits: codes k/65535 in the two channels of RG8, which every OpenGL ES 3 renders to,
-/// R16 none without an extension. The depth buffer (24 bits, linear as well) only picks the nearest.
-/// Cost: a draw of every caster a layer. 4 or 2 bytes a texel.
+/// The maps of one light: an array texture with the layers of ShadowView, in blocks of 2 × 2 texels: RGBA32UI with the
+/// bits of floats, or RGBA16UI with codes k/65535. OpenGL ES 3 renders to both without extensions (to R32F and R16 it
+/// doesn't), and one fetch brings four texels. A layer is drawn into a depth texture of 32 bits, which the fragments
+/// give linear depth, and stored from there. Cost: a draw of every caster a layer. 4 or 2 bytes a texel, and 4 bytes a
+/// texel of one layer to draw into.
 class ShadowMap {
 public:
     /// Nothing is drawn, and nothing looked up, before update().
@@ -52,12 +53,12 @@ public:
 private:
     friend void bindShadows(const Program&, std::span<const ShadowMap* const>, int);
     void allocate(int layers);
+    void store(const Program& program, int layer) const;  ///< the depth texture, as blocks
     SceneShadow options_;
     ShadowView view_;
     int layers_ = 0;
-    std::optional<TextureName> texture_;
-    std::optional<FramebufferName> framebuffer_;
-    std::optional<Renderbuffer> depth_;
+    std::optional<TextureName> texture_, depth_;
+    std::optional<FramebufferName> drawn_, stored_;
 };
 
 inline constexpr int kMaxShadows = 8;  ///< each takes a sampler; OpenGL ES promises 16 a program, all textures together

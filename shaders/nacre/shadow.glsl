@@ -8,14 +8,18 @@
 #define NACRE_SHADOW_CUBE 2
 #define NACRE_SHADOW_DUAL_PARABOLOID 3
 
-// Linear depth in [0, 1] of a texel: 32 bits in red, or 16 in red and green. decode: (1, 0), or (65280, 255) / 65535.
-float nacre_shadow_depth(sampler2DArray map, ivec3 texel, vec2 decode) { return dot(texelFetch(map, texel, 0).rg, decode); }
+// Depths are stored in blocks of 2 x 2 texels: (0, 0), (1, 0), (0, 1), (1, 1) of the block. One fetch for four texels
+// takes half the time of four. Integers, which every OpenGL ES 3 renders to: codes of 16 bits, or the bits of a float.
+// Where nothing is stored the depth is 1e6 (16 bits: code 65535), so that no plane is behind it.
+uvec4 nacre_shadow_encode(vec4 depth, int bits) {
+    return bits == 16 ? uvec4(min(depth, 1.0) * 65535.0 + 0.5) : floatBitsToUint(depth + 1e6 * step(1.0, depth));
+}
 
-// The pair of codes / 255 that nacre_shadow_depth reads back. Round trip: tests/shading/shadow_map_test.cpp.
-vec2 nacre_shadow_encode16(float depth) {
-    float code = floor(depth * 65535.0 + 0.5);
-    float high = floor(code / 256.0);
-    return vec2(high, code - 256.0 * high) / 255.0;
+// Round trip: tests/shading/shadow_map_test.cpp.
+vec4 nacre_shadow_decode(uvec4 block, int bits) {
+    if (bits == 32) return uintBitsToFloat(block);
+    vec4 depth = vec4(block) * (1.0 / 65535.0);
+    return depth + 1e6 * step(0.999995, depth);
 }
 
 // Face of a cube of maps: +X -X +Y -Y +Z -Z. C++: shadowPlace.
@@ -51,40 +55,44 @@ float nacre_shadow_bias(int n, float texel, float cos_theta, float resolution) {
 }
 
 // Share of the filter's texels whose stored surface point isn't above the plane dot(m, x) = plane; m points away from
-// the light. map_at: map coordinate of the point; range: depth of 0, and of 1 less that.
-// side: for a map coordinate c and a depth z, dot(m, x) is dot(side, (c, 1)) z (SPOT, CUBE) or dot(side, (c, 1)) +
-// m.z z (DIRECTIONAL). C++: shadowLit.
-float nacre_shadow_filter(sampler2DArray map, int layer, int kind, int n, vec2 decode, float size, vec2 range,
-                          float scale, vec2 map_at, vec3 m, vec3 side, float plane) {
-    vec2 texels = (map_at * 0.5 + 0.5) * size - (n % 2 == 0 ? 0.5 : 0.0);
-    vec2 low = floor(texels);
-    vec2 f = texels - low;
-    vec2 first = low - float((n - 1) / 2);
-    ivec2 corner = ivec2(first);
-    int last = int(size) - 1;
+// the light. at: texel coordinate of the point; range: depth of 0, and of 1 less that.
+// side: for a texel coordinate c and a depth z, dot(m, x) is dot(side, (c, 1)) z (SPOT, CUBE) or dot(side, (c, 1)) +
+// m.z z (DIRECTIONAL); unit: DUAL_PARABOLOID's map coordinate a texel. size: texels along an edge.
+// A texel's weight is its overlap with a box of n - 1 texels about the point. C++: shadowLit.
+float nacre_shadow_filter(usampler2DArray map, int layer, int kind, int n, int bits, float size, vec2 range, float unit,
+                          vec2 at, vec3 m, vec3 side, float plane) {
+    // The filter's texels are within the map; what is clamped is a last block without one of them.
+    vec2 block = clamp(floor((at - 0.5 * float(n - 1)) * 0.5), 0.0, 0.5 * size - float((n + 2) / 2));
+    ivec2 corner = ivec2(block);
+    vec2 first = block * 2.0 + 0.5;  // centre of the first texel
+    float start = dot(side, vec3(first, 1.0));
+    vec4 within = vec4(0.0, side.x, side.y, side.x + side.y);
     float sum = 0.0;
-    for (int j = 0; j < n; ++j) {
-        float row = n == 1 ? 1.0 : j == 0 ? 1.0 - f.y : j == n - 1 ? f.y : 1.0;
-        float across = 0.0;
-        for (int i = 0; i < n; ++i) {
-            float weight = n == 1 ? 1.0 : i == 0 ? 1.0 - f.x : i == n - 1 ? f.x : 1.0;
-            ivec2 at = clamp(corner + ivec2(i, j), ivec2(0), ivec2(last));
-            float depth = nacre_shadow_depth(map, ivec3(at, layer), decode);
-            float z = range.x + range.y * depth;
-            vec2 c = (first + vec2(float(i), float(j)) + 0.5) * (2.0 / size) - 1.0;
-            float point;
-            if (kind == NACRE_SHADOW_DUAL_PARABOLOID)
-                point = dot(m, nacre_shadow_paraboloid(c / scale)) * z;
-            else if (kind == NACRE_SHADOW_DIRECTIONAL)
-                point = dot(side, vec3(c, 1.0)) + m.z * z;
+    for (int j = 0; j < (n + 2) / 2; ++j) {
+        vec2 y = abs(first.y - at.y + vec2(0.0, 1.0) + float(2 * j));
+        vec2 wy = n == 1 ? step(y, vec2(0.5)) : clamp(0.5 * float(n) - y, 0.0, 1.0);
+        for (int i = 0; i < (n + 2) / 2; ++i) {
+            vec2 x = abs(first.x - at.x + vec2(0.0, 1.0) + float(2 * i));
+            vec2 wx = n == 1 ? step(x, vec2(0.5)) : clamp(0.5 * float(n) - x, 0.0, 1.0);
+            uvec4 stored = texelFetch(map, ivec3(corner + ivec2(i, j), layer), 0);
+            vec4 z = range.x + range.y * nacre_shadow_decode(stored, bits);
+            vec4 point = within + (start + float(2 * i) * side.x + float(2 * j) * side.y);
+            if (kind == NACRE_SHADOW_DIRECTIONAL)
+                point += m.z * z;
             else
-                point = dot(side, vec3(c, 1.0)) * z;
-            across += point >= plane || depth >= 0.999995 ? weight : 0.0;
+                point *= z;
+            if (kind == NACRE_SHADOW_DUAL_PARABOLOID) {
+                vec2 p = (first + vec2(float(2 * i), float(2 * j)) - 0.5 * size) * unit;
+                point = vec4(dot(m, nacre_shadow_paraboloid(p)), dot(m, nacre_shadow_paraboloid(p + vec2(unit, 0.0))),
+                             dot(m, nacre_shadow_paraboloid(p + vec2(0.0, unit))),
+                             dot(m, nacre_shadow_paraboloid(p + unit))) * z;
+            }
+            vec4 lit = step(plane, point);
+            sum += dot(lit.xy, wx) * wy.x + dot(lit.zw, wx) * wy.y;
         }
-        sum += across * row;
     }
     float width = float(n == 1 ? 1 : n - 1);
-    return sum / (width * width);
+    return sum * (1.0 / (width * width));
 }
 
 #endif

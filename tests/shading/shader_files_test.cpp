@@ -117,6 +117,7 @@ std::vector<ShaderDefines> shadowChoices() {
         const auto add = [&](ShaderDefines& to, const std::string& light) {
             to.insert(to.end(), {{"NACRE_SHADOW_" + light, kind},
                                  {"NACRE_SHADOW_N_" + light, std::to_string(1 + i % 5)},
+                                 {"NACRE_SHADOW_B_" + light, i % 3 == 0 ? "16" : "32"},
                                  {"NACRE_SHADOW_C_" + light, "3"}});
         };
         add(all, at);
@@ -187,6 +188,7 @@ std::vector<ProgramCase> programs() {
     out.push_back({"lit_vertex.vert.glsl", "lit_vertex.frag.glsl", {spots, brdfs.front(), brdfs.back()}});
     out.push_back({"lit.vert.glsl", "lit.frag.glsl", combined({brdfs.front()}, shadowChoices())});
     out.push_back({"lit.vert.glsl", "shadow_mask.frag.glsl", shadowChoices()});
+    out.push_back({"fullscreen.vert.glsl", "shadow_blocks.frag.glsl", {{}}});
     out.push_back({"shadow_map.vert.glsl", "shadow_map.frag.glsl", {{}, {{"NACRE_SHADOW_PARABOLOID", "1"}}}});
     std::vector<ShaderDefines> matrix;
     for (ShaderDefines defines : factoredChoices())
