@@ -44,7 +44,10 @@ ShaderDefines joined(ShaderDefines first, const ShaderDefines& second) {
 }
 
 void setView(const Program& program, const Camera& camera, const RenderTarget& target) {
-    const double aspect = static_cast<double>(target.width()) / target.height();
+    setView(program, camera, static_cast<double>(target.width()) / target.height());
+}
+
+void setView(const Program& program, const Camera& camera, double aspect) {
     program.set("nacre_world_to_clip", glm::mat4(camera.projection(aspect) * camera.view()));
     const Vec4 eye = camera.orthographic ? Vec4(orthographicDirection(camera), 0) : Vec4(camera.eye, 1);
     program.set("nacre_eye", glm::vec4(eye));

@@ -20,6 +20,7 @@ ShaderDefines joined(ShaderDefines first, const ShaderDefines& second);
 /// Uniforms of nacre/bind/view.glsl, lights.glsl and shadows.glsl; binds shadow maps from kShadowUnit. Leave `program`
 /// in use.
 void setView(const Program& program, const Camera& camera, const RenderTarget& target);
+void setView(const Program& program, const Camera& camera, double aspect);  ///< width / height
 void setLights(const Program& program, const LitView& view);
 
 /// Texture units after a BRDF's, three maps and a table of a surrounding, and a relief's.

@@ -189,6 +189,12 @@ std::vector<ProgramCase> programs() {
     out.push_back({"lit.vert.glsl", "lit.frag.glsl", combined({brdfs.front()}, shadowChoices())});
     out.push_back({"lit.vert.glsl", "shadow_mask.frag.glsl", shadowChoices()});
     out.push_back({"fullscreen.vert.glsl", "shadow_blocks.frag.glsl", {{}}});
+    out.push_back({"fullscreen.vert.glsl", "alpha_copy.frag.glsl", {{}}});
+    std::vector<ShaderDefines> alpha;
+    for (const char* step : {"NACRE_ALPHA_TEST", "NACRE_ALPHA_RAMP", "NACRE_ALPHA_MAP"})
+        alpha.push_back({{"NACRE_ALPHA_STEP", step}});
+    alpha.push_back({{"NACRE_ALPHA_STEP", "NACRE_ALPHA_RAMP"}, {"NACRE_ALPHA_FROM_LIGHT", "1"}});
+    out.push_back({"alpha_shadow.vert.glsl", "alpha_shadow.frag.glsl", alpha});
     out.push_back({"shadow_map.vert.glsl", "shadow_map.frag.glsl", {{}, {{"NACRE_SHADOW_PARABOLOID", "1"}}}});
     std::vector<ShaderDefines> matrix;
     for (ShaderDefines defines : factoredChoices())
