@@ -176,6 +176,7 @@ TEST(ShadowMap, ParaboloidIsTheCubesAnswer) {
 }
 
 TEST(ShadowMap, BitsRoundTrip) {
+    test::context();
     std::vector<DirectionPair> pairs;
     for (int code = 1; code < 65535; ++code) pairs.push_back({{code / 65535.0, 0, 0}, {0, 0, 0}});
     const auto values =
