@@ -26,7 +26,7 @@ namespace fs = std::filesystem;
 struct Arguments {
     std::string out = "build/bench", shared;
     std::vector<int> sourceSizes;
-    std::vector<std::string> materials, techniques = {"factored", "environment", "bump"};
+    std::vector<std::string> materials, techniques = {"factored", "environment", "bump", "shadow"};
     bool quick = false, barsOnly = false, noBars = false, noGpu = false, quiet = false, list = false;
 };
 
@@ -165,6 +165,18 @@ void runBump(const Arguments& arguments, const Progress& progress, Report& repor
     if (!arguments.barsOnly) report.bumps = sweepReliefs(list.reliefs, {arguments.quick, progress});
 }
 
+void runShadow(const Arguments& arguments, const Progress& progress, Report& report) {
+    const ShadowSceneList list = shadowScenes();
+    report.notes.insert(report.notes.end(), list.notes.begin(), list.notes.end());
+    std::optional<HeadlessGpu> gpu = openGpu<HeadlessGpu>(arguments, report.notes);
+    const ShadowSweepOptions options{arguments.quick, gpu ? &gpu->loader : nullptr, progress};
+    if (!arguments.noBars) {
+        const std::vector<Bar> bars = measureShadowBars(list.scenes, options);
+        report.bars.insert(report.bars.end(), bars.begin(), bars.end());
+    }
+    if (!arguments.barsOnly) report.shadows = sweepShadows(list.scenes, options);
+}
+
 int run(const Arguments& arguments) {
     const auto start = std::chrono::steady_clock::now();
     const Progress progress = progressOn(arguments.quiet);
@@ -186,15 +198,17 @@ int run(const Arguments& arguments) {
     }
     if (wants(arguments, "environment")) runEnvironment(arguments, progress, report);
     if (wants(arguments, "bump")) runBump(arguments, progress, report);
+    if (wants(arguments, "shadow")) runShadow(arguments, progress, report);
     report.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     if (!arguments.quiet && isatty(2) != 0) fmt::print(stderr, "\r\033[K");
     fmt::print("{}", barTable(report.bars));
     if (arguments.barsOnly) return 0;
     writeReport(report, arguments.out);
     if (!arguments.quiet)
-        fmt::print(stderr, "bench: {} bakes in {:.0f} s: {}\n",
-                   report.measurements.size() + report.environments.size() + report.bumps.size(), report.seconds,
-                   (fs::path(arguments.out) / "index.html").string());
+        fmt::print(
+            stderr, "bench: {} bakes in {:.0f} s: {}\n",
+            report.measurements.size() + report.environments.size() + report.bumps.size() + report.shadows.size(),
+            report.seconds, (fs::path(arguments.out) / "index.html").string());
     return 0;
 }
 
@@ -205,13 +219,14 @@ int main(int argc, char** argv) {
     nacre::bench::Arguments arguments;
     arguments.shared = nacre::bench::defaultShared();
     CLI::App app(
-        "Measures error and cost of every factorization, of prefiltered environments and of reliefs; writes "
+        "Measures error and cost of every factorization, of prefiltered environments, of reliefs and of "
+        "shadows; writes "
         "report.json and index.html.");
     app.add_option("--out", arguments.out, "folder to write")->capture_default_str();
     app.add_option("--shared", arguments.shared, "folder with data/brdf and tools, for measured materials")
         ->capture_default_str();
-    app.add_option("--techniques", arguments.techniques, "only these: factored, environment, bump")
-        ->check(CLI::IsMember({"factored", "environment", "bump"}));
+    app.add_option("--techniques", arguments.techniques, "only these: factored, environment, bump, shadow")
+        ->check(CLI::IsMember({"factored", "environment", "bump", "shadow"}));
     app.add_option("--source-sizes", arguments.sourceSizes, "of the environments' curves: edges of the source cube")
         ->check(CLI::IsMember({32, 64, 128, 256, 512, 1024, 2048}));
     app.add_option("--materials", arguments.materials, "only these (names as --list prints them)");

@@ -137,7 +137,8 @@ std::string reportPage(const Report& report) {
         "content=\"width=device-width, initial-scale=1\"><title>nacre: speed against error</title><style>";
     out += std::string(kStyle) + "</style></head><body><main>\n" + introduction(report) + barsSection(report);
     for (const Group group : kGroups) out += groupSection(report, group);
-    return out + environmentSection(report.environments) + bumpSection(report.bumps) + "</main></body></html>\n";
+    return out + environmentSection(report.environments) + bumpSection(report.bumps) + shadowSection(report.shadows) +
+           "</main></body></html>\n";
 }
 
 }  // namespace nacre::bench

@@ -8,6 +8,7 @@
 #include "bench/bars.hpp"
 #include "bench/bump_sweep.hpp"
 #include "bench/environment_sweep.hpp"
+#include "bench/shadow_sweep.hpp"
 #include "bench/sweep.hpp"
 
 namespace nacre::bench {
@@ -21,6 +22,7 @@ struct Report {
     std::vector<Measurement> measurements;
     std::vector<EnvironmentMeasurement> environments;
     std::vector<BumpMeasurement> bumps;
+    std::vector<ShadowMeasurement> shadows;
 };
 
 /// Numbers that aren't finite become the strings "inf", "-inf" and "nan".

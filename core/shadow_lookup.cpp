@@ -7,8 +7,6 @@
 namespace nacre {
 namespace {
 
-constexpr double kFacets = 0.5;  ///< κ of shadowBias
-
 int cubeLayer(const Vec3& q) {
     const Vec3 a = glm::abs(q);
     if (a.x >= a.y && a.x >= a.z) return q.x > 0 ? 0 : 1;
@@ -79,7 +77,7 @@ ShadowPlace shadowPlace(const ShadowView& view, const Vec3& position) {
 double shadowBias(const ShadowView& view, double texel, double cosTheta) {
     if (view.bias) return *view.bias;
     const double h = view.filter * std::sqrt(0.5) * texel;
-    return h * (std::sqrt(std::max(0.0, 1 - cosTheta * cosTheta)) + kFacets * cosTheta) + view.resolution * cosTheta;
+    return h * (1 - cosTheta * cosTheta / 2) + view.resolution;
 }
 
 double shadowLit(const ShadowView& view, std::span<const Image> layers, const Vec3& position, const Vec3& normal) {

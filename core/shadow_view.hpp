@@ -77,11 +77,12 @@ ShadowPlace shadowPlace(const ShadowView& view, const Vec3& position);
 
 /// How far above the receiver's plane a stored surface must be to shadow it [world units].
 ///
-/// The filter's n² texels reach h = n/√2 texels from the point. Let θ be the angle between the receiver's plane and the
-/// map's texels. A surface point at or beyond the receiver's depth, at most h aside, stands at most h sinθ over the
+/// The filter's n² texels reach h = n/√2 texels from the point. Let θ be the angle between the plane's normal and the
+/// light's ray. A surface point at or beyond the receiver's depth, at most h aside, stands at most h sinθ over the
 /// receiver's plane: with that bias nothing that is no nearer to the light shadows, be the surfaces flat, bent inwards
-/// or stepped. A curved surface's facets turn against each other; within the filter they may rise by as much as κ h
-/// cosθ (turned by atan κ): κ = 0.5. What is stored is off by the depth's resolution, added along the depth.
+/// or stepped. sinθ ≤ (1 + sin²θ)/2 = 1 − cos²θ/2 needs no root; equal at θ = 90°, it leaves h/2 where the light is
+/// above, for the facets of curved surfaces, which turn against each other (there by up to 35° within the filter).
+/// To it comes what a stored depth is off by.
 double shadowBias(const ShadowView& view, double texel, double cosTheta);
 
 /// Share of the light that reaches a point of a surface with geometric normal `normal` (unit, on the side that is

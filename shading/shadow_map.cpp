@@ -49,6 +49,7 @@ void drawCasters(const Program& program, const ShadowView& view, int layer, cons
 void unfiltered(GLenum target) {
     glTexParameteri(target, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
     glTexParameteri(target, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
+    glTexParameteri(target, GL_TEXTURE_MAX_LEVEL, 0);
     glTexParameteri(target, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
     glTexParameteri(target, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
     glBindTexture(target, 0);
@@ -71,8 +72,8 @@ void ShadowMap::allocate(int layers) {
     const int size = options_.size;
     TextureName texture, depth;
     glBindTexture(GL_TEXTURE_2D_ARRAY, texture.name());
-    glTexImage3D(GL_TEXTURE_2D_ARRAY, 0, half ? GL_RGBA16UI : GL_RGBA32UI, size / 2, size / 2, layers, 0,
-                 GL_RGBA_INTEGER, half ? GL_UNSIGNED_SHORT : GL_UNSIGNED_INT, nullptr);
+    glTexImage3D(GL_TEXTURE_2D_ARRAY, 0, half ? GL_RGBA16UI : GL_RGBA32UI, size, size / 2, layers, 0, GL_RGBA_INTEGER,
+                 half ? GL_UNSIGNED_SHORT : GL_UNSIGNED_INT, nullptr);
     unfiltered(GL_TEXTURE_2D_ARRAY);
     glBindTexture(GL_TEXTURE_2D, depth.name());
     glTexImage2D(GL_TEXTURE_2D, 0, GL_DEPTH_COMPONENT32F, size, size, 0, GL_DEPTH_COMPONENT, GL_FLOAT, nullptr);
@@ -99,10 +100,11 @@ void ShadowMap::allocate(int layers) {
 void ShadowMap::store(const Program& program, int layer) const {
     glBindFramebuffer(GL_FRAMEBUFFER, stored_->name());
     glFramebufferTextureLayer(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, texture_->name(), 0, layer);
-    glViewport(0, 0, options_.size / 2, options_.size / 2);
+    glViewport(0, 0, options_.size, options_.size / 2);
     glActiveTexture(GL_TEXTURE0);
     glBindTexture(GL_TEXTURE_2D, depth_->name());
     program.set("nacre_shadow_depth", 0);
+    program.set("nacre_shadow_stored", glm::vec2(view_.near, view_.far - view_.near));
     program.set("nacre_shadow_bits", options_.bits);
     glDisable(GL_DEPTH_TEST);
     glDisable(GL_CULL_FACE);
@@ -139,29 +141,32 @@ void ShadowMap::update(ProgramLoader& loader, const Light& light, const ShadowSc
 
 std::size_t ShadowMap::bytes() const {
     return static_cast<std::size_t>(layers_) * static_cast<std::size_t>(options_.size) *
-           static_cast<std::size_t>(options_.size) * (options_.bits == 16 ? 2 : 4);
+           static_cast<std::size_t>(options_.size) * (options_.bits == 16 ? 4 : 8);
 }
 
 std::vector<Image> ShadowMap::download() const {
     require(drawn(), "shadow map: nothing drawn yet");
-    const auto edge = static_cast<std::size_t>(options_.size) / 2;
-    std::vector<std::uint32_t> all(4 * edge * edge * static_cast<std::size_t>(layers_));
+    const auto edge = static_cast<std::size_t>(options_.size);
+    std::vector<std::uint32_t> all(2 * edge * edge * static_cast<std::size_t>(layers_));
     glBindTexture(GL_TEXTURE_2D_ARRAY, texture_->name());
     glPixelStorei(GL_PACK_ALIGNMENT, 1);
     glGetTexImage(GL_TEXTURE_2D_ARRAY, 0, GL_RGBA_INTEGER, GL_UNSIGNED_INT, all.data());
     glBindTexture(GL_TEXTURE_2D_ARRAY, 0);
     checkGl("reading a shadow map");
     const auto decode = [&](std::uint32_t code) {
-        return std::min(1.0f,
-                        options_.bits == 16 ? static_cast<float>(code) * (1.0f / 65535) : std::bit_cast<float>(code));
+        const float depth =
+            options_.bits == 16
+                ? static_cast<float>(code) / 65535
+                : static_cast<float>((std::bit_cast<float>(code) - view_.near) / (view_.far - view_.near));
+        return std::clamp(depth, 0.0f, 1.0f);
     };
     std::vector<Image> out;
     std::size_t at = 0;
     for (int layer = 0; layer < layers_; ++layer) {
         Image& image = out.emplace_back(options_.size, options_.size, 1);
         for (int y = 0; y < options_.size; y += 2)
-            for (int x = 0; x < options_.size; x += 2)
-                for (int k = 0; k < 4; ++k) image.at(x + k % 2, y + k / 2, 0) = decode(all[at++]);
+            for (int x = 0; x < options_.size; ++x, at += 4)
+                for (int k = 0; k < 2; ++k) image.at(x, y + k, 0) = decode(all[at + static_cast<std::size_t>(k)]);
     }
     return out;
 }

@@ -26,11 +26,11 @@ struct ShadowScene {
     double aspect = 1;
 };
 
-/// The maps of one light: an array texture with the layers of ShadowView, in blocks of 2 × 2 texels: RGBA32UI with the
-/// bits of floats, or RGBA16UI with codes k/65535. OpenGL ES 3 renders to both without extensions (to R32F and R16 it
-/// doesn't), and one fetch brings four texels. A layer is drawn into a depth texture of 32 bits, which the fragments
-/// give linear depth, and stored from there. Cost: a draw of every caster a layer. 4 or 2 bytes a texel, and 4 bytes a
-/// texel of one layer to draw into.
+/// The maps of one light: an array texture with the layers of ShadowView, as columns of four rows that overlap by two
+/// (shaders/nacre/shadow.glsl): RGBA32UI with the bits of floats, or RGBA16UI with codes k/65535. OpenGL ES 3 renders
+/// to both without extensions (to R32F and R16 it doesn't), and one fetch brings what a filter of three needs of a
+/// column. A layer is drawn into a depth texture of 32 bits, which the fragments give linear depth, and stored from
+/// there. Cost: a draw of every caster a layer. 8 or 4 bytes a texel, and 4 bytes a texel of one layer to draw into.
 class ShadowMap {
 public:
     /// Nothing is drawn, and nothing looked up, before update().

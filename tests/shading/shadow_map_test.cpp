@@ -125,6 +125,7 @@ TEST(ShadowMap, LookupInGlslAndCpp) {
             const ShadowTruth truth(mesh, someCamera(), c.light, {kSize, kSize});
             const Image twin = truth.mask(drawn.map.view(), drawn.map.download());
             int different = 0, compared = 0;
+            for (const float share : drawn.mask.data()) ASSERT_TRUE(share >= 0 && share <= 1.000001f) << share;
             for (int y = 0; y < kSize; ++y)
                 for (int x = 0; x < kSize; ++x) {
                     if (truth.at(x, y) == ShadowPixel::None) continue;
@@ -179,17 +180,18 @@ TEST(ShadowMap, BitsRoundTrip) {
     test::context();
     std::vector<DirectionPair> pairs;
     for (int code = 1; code < 65535; ++code) pairs.push_back({{code / 65535.0, 0, 0}, {0, 0, 0}});
-    const auto values =
-        test::gpuEvaluate({.code = "#include \"nacre/shadow.glsl\"\nvec4 evaluate(vec3 wi, vec3 wo) {\n"
-                                   "    vec4 depth = vec4(wi.x, 1.0 - wi.x, 0.0, 1.0);\n"
-                                   "    return vec4(nacre_shadow_decode(nacre_shadow_encode(depth, 16), 16).xy,\n"
-                                   "                nacre_shadow_decode(nacre_shadow_encode(depth, 32), 32).xw);\n}\n"},
-                          pairs);
+    const auto values = test::gpuEvaluate({.code = "#include \"nacre/shadow.glsl\"\nvec4 evaluate(vec3 wi, vec3 wo) {\n"
+                                                   "    vec4 depth = vec4(wi.x, 1.0 - wi.x, 0.0, 1.0);\n"
+                                                   "    return vec4(nacre_shadow_decode(nacre_shadow_encode(depth, "
+                                                   "vec2(0.5, 4.0), 16), vec2(0.5, 4.0), 16).xy,\n"
+                                                   "                nacre_shadow_decode(nacre_shadow_encode(depth, "
+                                                   "vec2(0.5, 4.0), 32), vec2(0.5, 4.0), 32).xw);\n}\n"},
+                                          pairs);
     for (std::size_t i = 0; i < pairs.size(); ++i) {
         const auto depth = static_cast<float>(pairs[i].wi.x);
-        ASSERT_NEAR(values[i].x, depth, 1e-7) << i;
-        ASSERT_NEAR(values[i].y, 1 - depth, 1e-7) << i;
-        ASSERT_EQ(values[i].z, depth) << i;
+        ASSERT_NEAR(values[i].x, 0.5f + 4 * depth, 1e-6) << i;
+        ASSERT_NEAR(values[i].y, 4.5f - 4 * depth, 1e-6) << i;
+        ASSERT_NEAR(values[i].z, 0.5f + 4 * depth, 1e-6) << i;
         ASSERT_GE(values[i].w, 1e6) << "nothing";
     }
 }

@@ -35,7 +35,12 @@ float nacre_shadow_by(usampler2DArray map, int i, int kind, int n, int bits, int
     q = nacre_shadow_layer_frame(kind, layer, q);
     m = nacre_shadow_layer_frame(kind, layer, m);
     float height = dot(m, q);
-    float cos_theta = kind == NACRE_SHADOW_DIRECTIONAL ? m.z : height * inversesqrt(dot(q, q));
+    // 1 / z and cos^2 of the angle between normal and ray by one division
+    float square = dot(q, q);
+    float inverse = 1.0 / (q.z * square);
+    float cos2 = height * height * (inverse * q.z);
+    if (kind == NACRE_SHADOW_DIRECTIONAL) cos2 = m.z * m.z;
+    if (kind == NACRE_SHADOW_DUAL_PARABOLOID) cos2 = height * height / square;  // q.z may be 0
     vec2 at;
     vec3 side = vec3(m.xy * size.w, m.z - dot(m.xy, vec2(size.y * size.w)));
     float texel;
@@ -57,18 +62,19 @@ float nacre_shadow_by(usampler2DArray map, int i, int kind, int n, int bits, int
         texel = square.w;
         side = vec3(m.xy * square.w, -dot(m.xy, square.xy) * square.w);
     } else if (kind == NACRE_SHADOW_DUAL_PARABOLOID) {
-        float r = length(q);
+        float r = sqrt(square);
         vec2 p = q.xy / (r + q.z);
         at = p * size.z + size.y;
         texel = r * 2.0 * size.w / (1.0 + dot(p, p));
     } else {
-        at = q.xy * (size.z / q.z) + size.y;
+        at = q.xy * (size.z * (inverse * square)) + size.y;
         texel = q.z * size.w;
         inside = q.z > 0.0 && max(abs(at.x - size.y), abs(at.y - size.y)) <= edge;
     }
-    float bias = range.w >= 0.0 ? range.w : nacre_shadow_bias(n, texel, cos_theta, range.z);
+    float bias = range.w >= 0.0 ? range.w : nacre_shadow_bias(n, texel, cos2, range.z);
     float lit = nacre_shadow_filter(map, layer, kind, n, bits, size.x, range.xy, size.w, at, m, side, height - bias);
-    return cos_theta > 0.0 ? (inside ? lit : 1.0) : 0.0;
+    float facing = kind == NACRE_SHADOW_DIRECTIONAL ? m.z : height;
+    return facing > 0.0 ? (inside ? lit : 1.0) : 0.0;
 }
 #endif
 
