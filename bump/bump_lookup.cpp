@@ -32,7 +32,7 @@ int nearestIndex(double c, int size, Wrap wrap) {
 Vec3 turnedOver(const Vec3& d, double u, double v, Wrap wrap) {
     if (wrap != Wrap::Mirror) return d;
     const auto side = [](double c) { return std::floor(c) - 2 * std::floor(std::floor(c) / 2) == 0 ? 1.0 : -1.0; };
-    return {d.x * side(u), d.y * side(v), d.z};
+    return {d.x * side(u) + 0.0, d.y * side(v) + 0.0, d.z};  // no −0: straight up has azimuth 0, as in the shader
 }
 
 float horizonAt(const HorizonMap& map, double u, double v, Wrap wrap, double azimuth) {

@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 
 #include "bump/ellipse_fit.hpp"
-#include "bump/horizon_map.hpp"
+#include "bump/sweep.hpp"
 #include "core/error.hpp"
 #include "core/parallel.hpp"
 
@@ -40,13 +40,14 @@ EllipseMap fitEllipses(const HeightMap& map, const EllipseOptions& options) {
             fmt::format("fitEllipses: expected 8 directions or more, found {}", options.directions));
     const EllipseFitter fitter(options.directions, options.fit);
     const std::size_t texels = map.heights.texelCount(), count = static_cast<std::size_t>(fitter.directions());
-    std::vector<std::uint16_t> radii(texels * count);
-    for (std::size_t k = 0; k < count; ++k) {
-        const std::vector<float> slopes =
-            horizonSlopes(map, 2 * kPi * static_cast<double>(k) / static_cast<double>(count), options.threads);
+    std::vector<std::uint16_t> radii(texels * count);  // direction by direction
+    SweepMemories memories;
+    parallelFor(count, options.threads, [&](std::size_t k) {
+        std::vector<float> slopes(texels);
+        sweepHorizons(map, 2 * kPi * static_cast<double>(k) / static_cast<double>(count), 1, false, memories, slopes);
         for (std::size_t i = 0; i < texels; ++i)  // cosine of the horizon's elevation
-            radii[i * count + k] = static_cast<std::uint16_t>(kCodes / std::sqrt(1 + slopes[i] * slopes[i]) + 0.5f);
-    }
+            radii[k * texels + i] = static_cast<std::uint16_t>(kCodes / std::sqrt(1 + slopes[i] * slopes[i]) + 0.5f);
+    });
     EllipseMap out{Image(map.width(), map.height(), 3), Image(map.width(), map.height(), 3)};
     parallelFor(static_cast<std::size_t>(map.height()), options.threads, [&](std::size_t y) {
         std::vector<float> lit(count);
@@ -54,7 +55,7 @@ EllipseMap fitEllipses(const HeightMap& map, const EllipseOptions& options) {
             const std::size_t texel = y * static_cast<std::size_t>(map.width()) + static_cast<std::size_t>(x);
             double sky = 0;
             for (std::size_t k = 0; k < count; ++k) {
-                lit[k] = static_cast<float>(radii[texel * count + k]) / kCodes;
+                lit[k] = static_cast<float>(radii[k * texels + texel]) / kCodes;
                 sky += sqr(lit[k]) / static_cast<double>(count);
             }
             const HorizonEllipse e = fitter.fit(lit);

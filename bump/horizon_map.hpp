@@ -9,10 +9,10 @@ namespace nacre {
 
 /// Tangent of the horizon's elevation above the plane, ≥ 0, of every texel towards `azimuth` [rad, from x to y]:
 /// sup over the line from the texel's point of (height − own height) / distance, the slope of the own patch included,
-/// to within 1e-3 (4e-3 where a patch far away bends above the lines between its borders). Blockers end at
-/// reachOf(map). Holes answer 0. \return row by row, width × height \throws std::invalid_argument for a bad map or
-/// azimuth Cost: the texels on a line until nothing ahead can rise higher; texels are 16 at a time. Same bits for any
-/// thread count and processor.
+/// to within 1e-3. Blockers end at reachOf(map). Holes answer 0. \return row by row, width × height \throws
+/// std::invalid_argument for a bad map or azimuth Cost: the texels on a line until nothing ahead can rise higher, but
+/// for those of which bounds tell that they can't; texels are 32 at a time. Memory: 16 bytes a texel and azimuth at
+/// work. Same bits for any thread count and processor.
 std::vector<float> horizonSlopes(const HeightMap& map, double azimuth, unsigned threads = 0);
 
 /// Elevations [rad], 0…π/2, towards the azimuths 2πk/K.

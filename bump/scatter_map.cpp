@@ -139,25 +139,34 @@ private:
 
 }  // namespace
 
-std::vector<float> rayDistances(const HeightMap& map, const Vec3& direction, unsigned threads) {
-    validateHeightMap(map);
-    constexpr double kUnit = 1e-6;
-    require(isFinite(direction) && std::abs(glm::length(direction) - 1) < kUnit,
-            "rayDistances: expected a direction of unit length");
+/// rayDistances into `out`.
+static void sweepDistances(const HeightMap& map, const Vec3& direction, unsigned threads, SweepMemories& memories,
+                           std::span<float> out) {
     const double along = std::hypot(direction.x, direction.y);
-    std::vector<float> out(map.heights.texelCount());
     const std::vector<float>& heights = map.heights.data();
     if (along < kVertical) {
         for (std::size_t i = 0; i < out.size(); ++i) out[i] = direction.z > 0 || std::isnan(heights[i]) ? -1 : 0;
-        return out;
+        return;
     }
-    const SweepGrid grid(map, std::atan2(direction.y, direction.x));
+    std::unique_ptr<SweepMemory> memory = memories.take();
+    const SweepGrid grid(map, std::atan2(direction.y, direction.x), *memory);
     const SweepPath path = sweepPath(grid, reachOf(map));
     const float slope = static_cast<float>(direction.z / along);
     const auto sweep = [&](int x, int y, SweepHints&, float* distances) {
         sweepRays(grid, path, slope, x, y, distances);
     };
     sweepTexels(grid, threads, sweep, out);
+    memories.giveBack(std::move(memory));
+}
+
+std::vector<float> rayDistances(const HeightMap& map, const Vec3& direction, unsigned threads) {
+    validateHeightMap(map);
+    constexpr double kUnit = 1e-6;
+    require(isFinite(direction) && std::abs(glm::length(direction) - 1) < kUnit,
+            "rayDistances: expected a direction of unit length");
+    SweepMemories memories;
+    std::vector<float> out(map.heights.texelCount());
+    sweepDistances(map, direction, threads, memories, out);
     return out;
 }
 
@@ -177,10 +186,11 @@ ScatterMap makeScatterMap(const HeightMap& map, const ScatterOptions& options) {
         out.weights.push_back(1 / (count * density.at(z)));
     }
     out.distance.resize(out.directions.size());
+    SweepMemories memories;
     // Directions side by side: so turning the map for each is shared out too.
     parallelFor(out.distance.size(), options.threads, [&](std::size_t i) {
         out.distance[i] = Image(map.width(), map.height(), 1);
-        out.distance[i].data() = rayDistances(map, out.directions[i], count > 1 ? 1 : options.threads);
+        sweepDistances(map, out.directions[i], count > 1 ? 1 : options.threads, memories, out.distance[i].data());
     });
     return out;
 }

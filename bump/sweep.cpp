@@ -13,6 +13,7 @@ namespace {
 #include "bump/wide.inl"
 
 const auto kHorizon = NACRE_WIDEST(horizon);
+const auto kAngles = NACRE_WIDEST(angles);
 const auto kRays = NACRE_WIDEST(rays);
 
 }  // namespace
@@ -20,6 +21,8 @@ const auto kRays = NACRE_WIDEST(rays);
 void sweepHorizon(const SweepGrid& grid, const SweepPath& path, int x, int y, SweepHints& hints, float* slopes) {
     kHorizon(grid, path, x, y, hints, slopes);
 }
+
+void sweepAngles(float* slopes) { kAngles(slopes); }
 
 void sweepRays(const SweepGrid& grid, const SweepPath& path, float slope, int x, int y, float* distances) {
     kRays(grid, path, slope, x, y, distances);

@@ -2,43 +2,55 @@
 
 constexpr int kVectors = kSweepLanes / kWide;
 
-/// Heights around one step, above the ray's start.
-struct Corners {
-    const float *low, *high;
-    NACRE_INLINE Corners(const SweepGrid& grid, const SweepStep& step, int x, int y)
-        : low(grid.at(x + step.column, y + step.row)), high(grid.at(x + step.column, y + step.row + 1)) {}
-    /// Height where the ray leaves above its start: differences first, which are exact where heights are alike.
+/// Heights around one chunk, above the ray's start.
+struct Window {
+    const float* first;
+    int stride;
+    NACRE_INLINE Window(const SweepGrid& grid, const SweepChunk& chunk, int x, int y)
+        : first(grid.at(x + chunk.column, y + chunk.row)), stride(grid.stride()) {}
+    /// Height between two texels above its start: differences first, which are exact where heights are alike.
+    NACRE_INLINE Floats between(int from, int to, float share, const Floats& start, int v) const {
+        const Floats other = load(first + from + v * kWide);
+        return (other - start) + share * (load(first + to + v * kWide) - other);
+    }
+    NACRE_INLINE Floats entering(const SweepChunk& chunk, const Floats& start, int v) const {
+        return between(0, chunk.share > 0 ? stride : 0, chunk.share, start, v);
+    }
     NACRE_INLINE Floats leaving(const SweepStep& step, const Floats& start, int v) const {
-        if (step.share == 1) return load(high + v * kWide + 1) - start;  // a corner: the other may be a hole
-        const float* other = (step.right ? low + 1 : high) + v * kWide;
-        const Floats from = load(other);
-        return (from - start) + step.share * (load(high + v * kWide + 1) - from);
+        return between(step.from, step.to, step.share, start, v);
     }
     /// The surface above the ray is linear in t but for twist · cosine · sine · t².
-    NACRE_INLINE Floats twist(int v) const {
-        const Floats t = (load(low + v * kWide) - load(low + v * kWide + 1)) -
-                         (load(high + v * kWide) - load(high + v * kWide + 1));
+    NACRE_INLINE Floats twist(const SweepStep& step, int v) const {
+        const float *low = first + step.corner + v * kWide, *high = low + stride;
+        const Floats t = (load(low) - load(low + 1)) - (load(high) - load(high + 1));
         constexpr float kReal = 1e28f;  // beyond: a corner is a hole, and there is no patch
         return (t < kReal) & (t > -kReal) ? t : t - t;
     }
 };
 
-/// Whether the step's patch exists. A ray along a row or column of texels runs on two patches' border: either will do.
-NACRE_INLINE Mask exists(const SweepGrid& grid, const SweepStep& step, int x, int y, int v) {
-    const auto patch = [&](int row) {
-        const float* low = grid.at(x + step.column, y + row) + v * kWide;
-        const float* high = grid.at(x + step.column, y + row + 1) + v * kWide;
+/// The same with holes: which patches exist. A ray along a row of texels runs on the border of two patches, and either
+/// will do.
+template <bool holes>
+struct Windows : Window {
+    const float* before;  ///< the row above such a ray, or null
+    NACRE_INLINE Windows(const SweepGrid& grid, const SweepChunk& chunk, int x, int y)
+        : Window(grid, chunk, x, y),
+          before(holes && !(grid.sine() > 0) ? grid.at(x + chunk.column, grid.rowBefore(y)) : nullptr) {}
+    NACRE_INLINE static Mask real(const float* low, const float* high) {
         return smaller(smaller(load(low), load(low + 1)), smaller(load(high), load(high + 1))) > kHole / 2;
-    };
-    return grid.sine() > 0 ? patch(step.row) : patch(step.row) | patch(grid.rowBefore(y, step.row) - y);
-}
+    }
+    NACRE_INLINE Mask exists(const SweepStep& step, int v) const {
+        const int corner = step.corner + v * kWide;
+        const Mask patch = real(first + corner, first + corner + stride);
+        return before ? patch | real(before + corner, first + corner) : patch;
+    }
+};
 
-/// A patch rises above the chord along the ray by at most this times its twist: cosine · sine · length²/4, and
+/// A patch rises above the chord along the ray by at most this times its bend: cosine · sine · length²/4, and
 /// length ≤ 1/cosine.
-NACRE_INLINE float largestLift(const SweepGrid& grid) { return static_cast<float>(grid.sine() / grid.cosine() / 4); }
+NACRE_INLINE float largestLift(const SweepGrid& grid) { return static_cast<float>(grid.tangent() / 4); }
 
-constexpr float kTolerance = 1e-3f;      // of a slope: smaller gains are not looked for
-constexpr float kBendTolerance = 4e-3f;  // nor are these, of patches that bend above their chords: rarer, and dearer
+constexpr float kTolerance = 1e-3f;  // of a slope: smaller gains are not looked for
 
 /// Largest slope within a step that bends down, c < 0: of A + B t + c t² at t² = A/c. Taken at that point of the patch, so
 /// that rounding of A can't raise it.
@@ -58,26 +70,25 @@ NACRE_INLINE Floats bulge(const SweepStep& step, const Floats& f0, const Floats&
 /// Slopes of the patches' edges that the steps cross, and of what bends above them when `bends`. With holes only those
 /// of patches that exist.
 template <bool bends, bool holes>
-NACRE_INLINE void climb(const SweepGrid& grid, const SweepPath& path, const SweepChunk& chunk, int x, int y,
-                        const Floats* start, const Floats* entry, float lift, Floats* slope) {
+NACRE_INLINE void climb(const SweepGrid& grid, const SweepPath& path, const SweepChunk& chunk,
+                        const Windows<holes>& window, const Floats* start, const Floats* lift, Floats* slope) {
     const float bend = static_cast<float>(grid.cosine() * grid.sine());
     Floats f0[kVectors];
-    for (int v = 0; v < kVectors; ++v) f0[v] = entry[v];
+    for (int v = 0; v < kVectors; ++v) f0[v] = bends ? window.entering(chunk, start[v], v) : start[v];
     for (std::size_t k = chunk.begin; k < chunk.end; ++k) {
         const SweepStep& step = path.steps[k];
-        const Corners corners(grid, step, x, y);
         const float far = step.far, length = step.t1 - step.t0, middle = 0.5f * (step.t0 + step.t1);
         for (int v = 0; v < kVectors; ++v) {
-            const Floats f1 = corners.leaving(step, start[v], v), before = slope[v];
+            const Floats f1 = window.leaving(step, start[v], v), before = slope[v];
             slope[v] = larger(f1 * far, slope[v]);
-            if (holes && k > 0) slope[v] = larger(f0[v] * (1 / step.t0), slope[v]);
+            if (holes && k > 0) slope[v] = larger(f0[v] * step.near, slope[v]);
             // Not above its ends by more than `lift`, nor above its control polygon: most steps end here.
-            if (bends && any(larger(f0[v], f1) + lift > slope[v] * step.t0)) {
-                const Floats c = corners.twist(v) * bend;
+            if (bends && any(larger(f0[v], f1) + lift[v] > (slope[v] + kTolerance) * step.t0)) {
+                const Floats c = window.twist(step, v) * bend;
                 const Floats control = 0.5f * (f0[v] + f1) - c * (0.5f * length * length);
-                if (any(control > slope[v] * middle)) slope[v] = bulge(step, f0[v], f1, c, slope[v]);
+                if (any(control > (slope[v] + kTolerance) * middle)) slope[v] = bulge(step, f0[v], f1, c, slope[v]);
             }
-            if (holes) slope[v] = exists(grid, step, x, y, v) ? slope[v] : before;
+            if (holes) slope[v] = window.exists(step, v) ? slope[v] : before;
             f0[v] = f1;
         }
     }
@@ -91,35 +102,40 @@ struct Climb {
 
 /// A chunk that may hold a higher slope: chords, and then bends where a patch could rise above them.
 template <bool holes>
-NACRE_INLINE void visit(const SweepGrid& grid, const SweepPath& path, std::size_t i, int x, int y, float lift,
-                        Climb& c) {
+NACRE_INLINE void visit(const SweepGrid& grid, const SweepPath& path, std::size_t i, int x, int y, Climb& c) {
     const SweepChunk& chunk = path.chunks[i];
-    Floats found[kVectors], entry[kVectors];
-    for (int v = 0; v < kVectors; ++v) found[v] = c.slope[v];
+    const Windows<holes> window(grid, chunk, x, y);
+    Floats found[kVectors], lift[kVectors];
+    for (int v = 0; v < kVectors; ++v) {
+        found[v] = c.slope[v];
+        lift[v] = load(grid.chunkBend(x + chunk.column, y + chunk.row) + v * kWide) * largestLift(grid);
+    }
     bool bends = holes;
     if (!holes) {
         Floats chords[kVectors];
-        for (int v = 0; v < kVectors; ++v) chords[v] = c.slope[v] - c.slope[v];
-        climb<false, false>(grid, path, chunk, x, y, c.start, entry, 0, chords);
+        for (int v = 0; v < kVectors; ++v) chords[v] = window.entering(chunk, c.start[v], v) * chunk.near;
+        climb<false>(grid, path, chunk, window, c.start, lift, chords);
         Mask bent = {};
         for (int v = 0; v < kVectors; ++v) {
             found[v] = larger(chords[v], found[v]);
-            bent |= chords[v] + lift * chunk.near > found[v] + kBendTolerance;
+            bent |= chords[v] + lift[v] * chunk.near > found[v] + kTolerance;
         }
         bends = any(bent);
     }
-    if (bends) {
-        const SweepStep& before = path.steps[chunk.begin - 1];
-        const Corners corners(grid, before, x, y);
-        for (int v = 0; v < kVectors; ++v) entry[v] = corners.leaving(before, c.start[v], v);
-        climb<true, holes>(grid, path, chunk, x, y, c.start, entry, lift, found);
-    }
+    if (bends) climb<true>(grid, path, chunk, window, c.start, lift, found);
     for (int v = 0; v < kVectors; ++v) {
         c.chunk[v] = found[v] > c.slope[v] ? c.chunk[v] - c.chunk[v] + static_cast<std::int32_t>(i) : c.chunk[v];
         c.slope[v] = found[v];
     }
 }
 
+/// Whether heights, one for each texel, this near [1/texels] could be above the horizons.
+NACRE_INLINE bool mayRise(const float* high, float near, const Climb& c) {
+    Mask open = {};
+    for (int v = 0; v < kVectors; ++v)
+        open |= (load(high + v * kWide) - c.start[v]) * near > c.slope[v] + kTolerance;
+    return any(open);
+}
 NACRE_INLINE bool mayRise(float high, float near, const Climb& c) {
     Mask open = {};
     for (int v = 0; v < kVectors; ++v) open |= (high - c.start[v]) * near > c.slope[v] + kTolerance;
@@ -129,54 +145,66 @@ NACRE_INLINE bool mayRise(float high, float near, const Climb& c) {
 /// The chunks that hold the horizons, each once, as many as there is room for.
 NACRE_INLINE void remember(const Climb& c, SweepHints& hints) {
     hints.count = 0;
-    std::int32_t chunks[kSweepLanes];
+    std::int32_t chunks[kSweepLanes], last = 0;
     std::memcpy(chunks, c.chunk, sizeof(chunks));
-    for (const std::int32_t i : chunks) {
-        if (i == 0 || hints.count == SweepHints::kMost || hints.has(i)) continue;
-        hints.chunks[hints.count++] = i;
+    for (int lane = 1; lane < kSweepLanes && hints.count < SweepHints::kMost; lane += 2) {  // who stands alone may wait
+        const std::int32_t i = chunks[lane];
+        if (i != last && i != 0 && !hints.has(i)) hints.chunks[hints.count++] = i;
+        last = i;
     }
 }
 
 template <bool holes>
 NACRE_INLINE void horizonOf(const SweepGrid& grid, const SweepPath& path, int x, int y, SweepHints& hints,
                             float* slopes) {
+    constexpr float kNever = 1e30f;  // nothing rises above the horizon of a hole
     Climb c;
-    Floats entry[kVectors];
+    Floats lift[kVectors];
     for (int v = 0; v < kVectors; ++v) {
         c.start[v] = load(grid.at(x, y) + v * kWide);
-        c.slope[v] = entry[v] = c.start[v] - c.start[v];
+        const Floats zero = c.start[v] - c.start[v];
+        c.slope[v] = holes ? c.start[v] < kHole / 2 ? zero + kNever : zero : zero;
         c.chunk[v] = Mask{};
+        lift[v] = load(grid.chunkBend(x, y) + v * kWide) * largestLift(grid);
     }
-    const float liftOfTwist = largestLift(grid);
-    const auto boundOf = [&](std::size_t i) -> const SweepBound& {
-        return grid.bound(x + path.chunks[i].column, y + path.chunks[i].row);
-    };
-    climb<true, holes>(grid, path, path.chunks[0], x, y, c.start, entry, boundOf(0).twist * liftOfTwist, c.slope);
+    const Windows<holes> own(grid, path.chunks[0], x, y);
+    climb<true>(grid, path, path.chunks[0], own, c.start, lift, c.slope);
     // What the row before found first: the rest then has to rise above that.
-    for (int k = 0; k < hints.count; ++k) {
-        const std::size_t i = static_cast<std::size_t>(hints.chunks[k]);
-        visit<holes>(grid, path, i, x, y, boundOf(i).twist * liftOfTwist, c);
-    }
-    for (std::size_t i = 1; i < path.chunks.size(); ++i) {
-        const SweepChunk& chunk = path.chunks[i];
-        if (i % kSweepGroup == 0) {  // a group of chunks at once
-            if (!mayRise(grid.highest(), chunk.near, c)) break;
-            if (!mayRise(grid.farHighest(x + chunk.column, y + chunk.row), chunk.near, c)) {
-                i += kSweepGroup - 1;
-                continue;
-            }
+    for (int k = 0; k < hints.count; ++k)
+        visit<holes>(grid, path, static_cast<std::size_t>(hints.chunks[k]), x, y, c);
+    const std::size_t count = path.chunks.size();
+    for (std::size_t first = 0; first < count; first += kSweepGroup) {
+        const SweepChunk& group = path.chunks[first];
+        if (first % (4 * kSweepGroup) == 0 && first > 0 && !mayRise(grid.highest(), group.near, c)) break;
+        if (first > 0 && !mayRise(grid.groupHighest(x + group.column, y + group.row), group.near, c)) continue;
+        for (std::size_t i = std::max<std::size_t>(first, 1); i < std::min(first + kSweepGroup, count); ++i) {
+            const SweepChunk& chunk = path.chunks[i];
+            if (!mayRise(grid.chunkHighest(x + chunk.column, y + chunk.row), chunk.near, c)) continue;
+            if (!hints.has(static_cast<int>(i))) visit<holes>(grid, path, i, x, y, c);
         }
-        const SweepBound& bound = boundOf(i);
-        if (!mayRise(bound.highest, chunk.near, c) || hints.has(static_cast<int>(i))) continue;
-        visit<holes>(grid, path, i, x, y, bound.twist * liftOfTwist, c);
     }
     remember(c, hints);
+    for (int v = 0; holes && v < kVectors; ++v)
+        c.slope[v] = c.start[v] < kHole / 2 ? c.start[v] - c.start[v] : c.slope[v];
     std::memcpy(slopes, c.slope, sizeof(c.slope));
 }
 
 void horizon(const SweepGrid& grid, const SweepPath& path, int x, int y, SweepHints& hints, float* slopes) {
     if (grid.holes()) return horizonOf<true>(grid, path, x, y, hints, slopes);
     horizonOf<false>(grid, path, x, y, hints, slopes);
+}
+
+/// atan(x), x ≥ 0, to 1e-7 (Abramowitz & Stegun 4.4.49).
+void angles(float* slopes) {
+    for (int v = 0; v < kVectors; ++v) {
+        const Floats x = load(slopes + v * kWide), one = x - x + 1, t = x > 1 ? one / x : x, s = t * t;
+        Floats sum = x - x + 0.0028662257f;
+        for (const float c : {-0.0161657367f, 0.0429096138f, -0.0752896400f, 0.1065626393f, -0.1420889944f,
+                              0.1999355085f, -0.3333314528f, 1.0f})
+            sum = sum * s + c;
+        const Floats angle = sum * t, out = x > 1 ? static_cast<float>(kPi / 2) - angle : angle;
+        std::memcpy(slopes + v * kWide, &out, sizeof(out));
+    }
 }
 
 /// The last step before a hit, lane by lane.
@@ -199,7 +227,6 @@ NACRE_INLINE Floats hitDistance(const Hit& h, bool first) {
 template <bool holes>
 NACRE_INLINE void raysOf(const SweepGrid& grid, const SweepPath& path, float rise, int x, int y, float* distances) {
     const float bend = static_cast<float>(grid.cosine() * grid.sine());
-    const float liftOfTwist = largestLift(grid);
     Floats start[kVectors], f0[kVectors], distance[kVectors];
     Mask done[kVectors];
     for (int v = 0; v < kVectors; ++v) {
@@ -209,41 +236,39 @@ NACRE_INLINE void raysOf(const SweepGrid& grid, const SweepPath& path, float ris
         done[v] = start[v] < kHole / 2;
     }
     for (const SweepChunk& chunk : path.chunks) {
+        const Windows<holes> window(grid, chunk, x, y);
         const float near = path.steps[chunk.begin].t0;
         if (chunk.begin > 0) {
             const float lowest = rise * (rise < 0 ? path.steps[chunk.end - 1].t1 : near);
-            const float high = grid.bound(x + chunk.column, y + chunk.row).highest - lowest;
+            const float* high = grid.chunkHighest(x + chunk.column, y + chunk.row);
             const float highAnywhere = grid.highest() - lowest;
             Mask open = {}, openAnywhere = {};
             for (int v = 0; v < kVectors; ++v) {
-                open |= ~done[v] & (high > start[v]);
+                open |= ~done[v] & (load(high + v * kWide) - lowest > start[v]);
                 openAnywhere |= ~done[v] & (highAnywhere > start[v]);
             }
             if (!any(openAnywhere)) break;
             if (!any(open)) continue;
-            const SweepStep& before = path.steps[chunk.begin - 1];
-            const Corners corners(grid, before, x, y);
-            for (int v = 0; v < kVectors; ++v) f0[v] = corners.leaving(before, start[v], v) - rise * near;
+            for (int v = 0; v < kVectors; ++v) f0[v] = window.entering(chunk, start[v], v) - rise * near;
         }
-        const float lift = grid.bound(x + chunk.column, y + chunk.row).twist * liftOfTwist;
+        const float* bends = grid.chunkBend(x + chunk.column, y + chunk.row);
         Hit hits[kVectors] = {};
         for (std::size_t k = chunk.begin; k < chunk.end; ++k) {
             const SweepStep& step = path.steps[k];
-            const Corners corners(grid, step, x, y);
             const float length = step.t1 - step.t0;
             for (int v = 0; v < kVectors; ++v) {
-                const Floats f1 = corners.leaving(step, start[v], v) - rise * step.t1;
-                if (!any(~done[v] & (larger(f0[v], f1) + lift > 0))) {  // as in climb
+                const Floats f1 = window.leaving(step, start[v], v) - rise * step.t1;
+                if (!any(~done[v] & (larger(f0[v], f1) + load(bends + v * kWide) * largestLift(grid) > 0))) {  // as in climb
                     f0[v] = f1;
                     continue;
                 }
-                const Floats c = corners.twist(v) * bend;
+                const Floats c = window.twist(step, v) * bend;
                 // Above the ray's end, or where the patch bends down, above its middle: at −β/2C, by −β²/4C.
                 const Floats beta = (f1 - f0[v]) * (1 / length) - c * length;
                 const Mask peak =
                     (c < 0) & (beta > 0) & (beta + 2 * length * c < 0) & (4 * c * f0[v] < beta * beta);
                 Mask now = ~done[v] & ((f0[v] > 0) | (f1 > 0) | peak);
-                if (holes) now &= exists(grid, step, x, y, v);
+                if (holes) now &= window.exists(step, v);
                 Hit& h = hits[v];
                 h.t0 = now ? step.t0 + (f1 - f1) : h.t0;
                 h.length = now ? length + (f1 - f1) : h.length;

@@ -6,6 +6,8 @@
 
 #include "cli/bake_record.hpp"
 #include "cli/terminal.hpp"
+#include "core/error.hpp"
+#include "shading/scene_programs.hpp"
 
 namespace nacre::cli {
 
@@ -105,6 +107,44 @@ json assetsOf(const SceneDescription& scene) {
     return out;
 }
 
+/// The shaders that drawing takes, or why nobody knows yet: an asset that isn't baked.
+json programsOf(const SceneDescription& scene) {
+    std::vector<AssetTraits> traits;
+    json out = json::array();
+    try {
+        for (const SceneAsset& asset : scene.assets)
+            traits.push_back(traitsOf(readAsset(asset.file), asset.file.string()));
+        checkScene(scene, traits);
+    } catch (const std::exception& error) {
+        return {{"unknown", error.what()}};
+    }
+    for (const ListedProgram& listed : scenePrograms(scene, traits)) {
+        json entry = {{"vertex", listed.program.vertex},
+                      {"fragment", listed.program.fragment},
+                      {"defines", json::object()},
+                      {"nodes", json::array()}};
+        for (const auto& [name, value] : listed.program.defines) entry["defines"][name] = value;
+        for (const int node : listed.nodes) entry["nodes"].push_back(scene.nodes[at(node)].name);
+        out.push_back(std::move(entry));
+    }
+    return out;
+}
+
+std::string programsText(const json& programs) {
+    if (programs.is_object())
+        return fmt::format("  programs  not known yet: {}\n", programs["unknown"].get<std::string>());
+    std::string out;
+    for (const json& p : programs) {
+        std::string defines;
+        for (const auto& [name, value] : p["defines"].items())
+            if (name != "NACRE_SPECIALIZE")
+                defines += " " + name + (value == "1" ? "" : "=" + value.get<std::string>());
+        out += fmt::format("  program   {:<20} {} nodes:{}\n", p["fragment"].get<std::string>(), p["nodes"].size(),
+                           defines);
+    }
+    return out;
+}
+
 std::string usesText(const json& uses) {
     std::string out;
     for (const auto& [role, what] : uses.items())
@@ -136,6 +176,7 @@ json sceneReport(const SceneDescription& scene, const std::vector<std::string>& 
             {"materials", materialsOf(scene)},
             {"lights", lightsOf(scene)},
             {"assets", assetsOf(scene)},
+            {"programs", programsOf(scene)},
             {"camera", view},
             {"tracks", scene.tracks.size()},
             {"duration", scene.duration},
@@ -166,6 +207,7 @@ std::string sceneText(const json& r) {
                            a["state"].get<std::string>(), a["file"].get<std::string>(),
                            a.contains("bytes") ? ", " + humanBytes(a["bytes"].get<std::size_t>()) : "",
                            a.contains("why") ? ": " + a["why"].get<std::string>() : "");
+    out += programsText(r["programs"]);
     if (r["duration"].get<double>() > 0)
         out +=
             fmt::format("  animation {} tracks, {:g} s\n", r["tracks"].get<std::size_t>(), r["duration"].get<double>());

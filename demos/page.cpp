@@ -54,8 +54,8 @@ std::string summaryTable(const Gallery& gallery) {
 
 std::string exhibitTable(const Gallery& gallery) {
     if (gallery.exhibits.empty()) return {};
-    std::string html = "<table class=\"cards\">" +
-                       headRowHtml({"exhibits", "lowest PSNR", "longest frame"}) + "<tbody>\n";
+    std::string html =
+        "<table class=\"cards\">" + headRowHtml({"exhibits", "lowest PSNR", "longest frame"}) + "<tbody>\n";
     for (const Exhibit& e : gallery.exhibits) {
         const std::optional<double> psnr = lowestPsnr(e), frame = longestFrame(e);
         html += fmt::format("<tr><td><a href=\"#{}\">{}</a></td>", e.id, escapeHtml(e.title)) +

@@ -13,6 +13,8 @@
 namespace nacre {
 namespace {
 
+constexpr GLenum kContextLost = 0x0507;  // GL_CONTEXT_LOST of OpenGL 4.5 and KHR_robustness
+
 struct Candidate {
     std::string platform;
     EGLDisplay display;
@@ -77,6 +79,28 @@ EGLContext createOn(EGLDisplay display, GlApi api, std::string& why) {
     return context;
 }
 
+/// What a display offers when asked for no version: "OpenGL 2.1 Mesa …"; empty when nothing.
+std::string offeredBy(EGLDisplay display, GlApi api) {
+    const bool es = api == GlApi::Es3;
+    if (display == EGL_NO_DISPLAY || !eglInitialize(display, nullptr, nullptr)) return {};
+    if (!eglBindAPI(es ? EGL_OPENGL_ES_API : EGL_OPENGL_API)) return {};
+    const EGLint wanted[] = {EGL_SURFACE_TYPE, EGL_PBUFFER_BIT, EGL_RENDERABLE_TYPE,
+                             es ? EGL_OPENGL_ES2_BIT : EGL_OPENGL_BIT, EGL_NONE};
+    EGLConfig config = nullptr;
+    EGLint found = 0;
+    if (!eglChooseConfig(display, wanted, &config, 1, &found) || found == 0) return {};
+    const EGLint es2[] = {EGL_CONTEXT_MAJOR_VERSION, 2, EGL_NONE};
+    const EGLContext context = eglCreateContext(display, config, EGL_NO_CONTEXT, es ? es2 : nullptr);
+    if (context == EGL_NO_CONTEXT) return {};
+    std::string out;
+    if (eglMakeCurrent(display, EGL_NO_SURFACE, EGL_NO_SURFACE, context))
+        if (const auto* text = reinterpret_cast<const char*>(glGetString(GL_VERSION)))
+            out = std::string(es ? "" : "OpenGL ") + text;
+    eglMakeCurrent(display, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
+    eglDestroyContext(display, context);
+    return out;
+}
+
 const char* apiName(GlApi api) {
     switch (api) {
         case GlApi::Core33:
@@ -101,9 +125,11 @@ Context::Context(GlApi api) : api_(api) {
             platform_ = candidate.platform;
             return;
         }
-        tried += fmt::format("; {}: {}", candidate.platform, why);
+        const std::string offered = offeredBy(candidate.display, api);
+        tried += fmt::format("; {}: {}{}", candidate.platform, why,
+                             offered.empty() ? "" : fmt::format(", found {}", offered));
     }
-    throw Error(fmt::format("no {} context without a window{}", apiName(api), tried));
+    throw Error(fmt::format("expected a context of {} without a window, found none{}", apiName(api), tried));
 }
 
 Context::~Context() { release(); }
@@ -151,6 +177,10 @@ void checkGl(const std::string& what) {
     for (int i = 0; i < 16; ++i) {  // bounded: a lost context reports the same error for ever
         const GLenum code = glGetError();
         if (code == GL_NO_ERROR) break;
+        if (code == kContextLost)
+            throw Error(what +
+                        ": the OpenGL context is lost (its device was reset or taken away): make a new one of "
+                        "OpenGL 3.3 or OpenGL ES 3.0 and load everything again");
         codes += fmt::format(" 0x{:04x}", code);
     }
     if (!codes.empty()) throw Error(what + ": OpenGL errors" + codes);

@@ -59,8 +59,9 @@ TEST(CommandUsage, HelpOfEveryVerbGoesToStandardOutput) {
 
 TEST(CommandUsage, WrongUsageIsExitTwo) {
     const Scratch scratch;
-    expectFailure(nacre({}), 2,
-                  {"expected a verb", "factorize, envmap, bump, fresnel, sh, bake, info, eval, models, methods"});
+    expectFailure(
+        nacre({}), 2,
+        {"expected a verb", "factorize, envmap, bump, fresnel, sh, bake, info, eval, render, view, models, methods"});
     expectFailure(nacre({"frobnicate"}), 2, {"'frobnicate'", "factorize"});
     expectFailure(nacre({"factorize", "lambert"}), 2, {"--output is required"});
     expectFailure(nacre({"info"}), 2, {"file"});

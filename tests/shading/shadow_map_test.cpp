@@ -177,6 +177,7 @@ TEST(ShadowMap, ParaboloidIsTheCubesAnswer) {
 }
 
 TEST(ShadowMap, BitsRoundTrip) {
+    test::context();
     std::vector<DirectionPair> pairs;
     for (int code = 1; code < 65535; ++code) pairs.push_back({{code / 65535.0, 0, 0}, {0, 0, 0}});
     const auto values = test::gpuEvaluate({.code = "#include \"nacre/shadow.glsl\"\nvec4 evaluate(vec3 wi, vec3 wo) {\n"

@@ -225,7 +225,7 @@ Bytes inr(std::string header, const void* data, std::size_t size) {
     header += "##}\n";
     Bytes out(header.begin(), header.end());
     out.resize(256 + size);
-    std::memcpy(out.data() + 256, data, size);
+    if (size > 0) std::memcpy(out.data() + 256, data, size);
     return out;
 }
 

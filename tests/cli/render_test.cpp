@@ -1,0 +1,111 @@
+// nacre render from outside.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <nlohmann/json.hpp>
+
+#include "core/file.hpp"
+#include "core/image_file.hpp"
+#include "tests/cli/process.hpp"
+
+namespace nacre {
+namespace {
+
+using nlohmann::json;
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+using tests::nacre;
+using tests::Outcome;
+using tests::Scratch;
+
+/// Two squares, one lit from the side, and a spot with a shadow: no asset to bake.
+std::string sceneFile(const Scratch& scratch) {
+    writeFile(scratch / "scene.json", R"({
+        "nacre_scene": 1,
+        "meshes": {"square": {"quad": {"size": 2, "steps": 2}}},
+        "materials": {"matt": {"model": "lambert:kd=0.7/0.5/0.3", "ambient": [0.02, 0.02, 0.02]}},
+        "nodes": {"back": {"mesh": "square", "material": "matt", "scale": [2, 2, 2]},
+                  "front": {"mesh": "square", "material": "matt", "translation": [0.3, 0.2, 0.6], "scale": [0.3, 0.3, 0.3]}},
+        "lights": {"lamp": {"type": "spot", "position": [1, 1, 3], "target": [0, 0, 0], "intensity": 30, "shadow": {"size": 512}}},
+        "camera": {"eye": [0, 0, 4], "target": [0, 0, 0], "fovYDeg": 40, "near": 0.5, "far": 20}
+    })");
+    return (scratch / "scene.json").string();
+}
+
+TEST(CommandRender, DrawsAndComparesWithTheReference) {
+    const Scratch scratch;
+    const std::string output = scratch / "a.exr";
+    const Outcome run = nacre({"render", sceneFile(scratch), "-o", output, "--size", "96x64", "--shares", "--json"});
+    ASSERT_EQ(run.code, 0) << run.err;
+    const json data = json::parse(run.out);
+    EXPECT_EQ(data["width"], 96);
+    EXPECT_EQ(data["programs"], 1);
+    EXPECT_GT(data["errors"]["all"]["psnr"], 35) << "models in the shader: what is left are shadows' edges";
+    EXPECT_GE(data["errors"]["all"]["psnr"], data["errors"]["surrounding_occluded"]["psnr"].get<double>() - 3);
+    ASSERT_EQ(data["errors"]["shares"].size(), 1u);
+    EXPECT_EQ(data["errors"]["shares"][0]["name"], "shadow maps");
+    EXPECT_LT(data["errors"]["shares"][0]["psnr_off"], data["errors"]["all"]["psnr"]);
+    EXPECT_GT(data["errors"]["shares"][0]["psnr_without"], data["errors"]["all"]["psnr"]);
+    const Image picture = readImageFile(output).image, reference = readImageFile(scratch / "a-reference.exr").image;
+    EXPECT_EQ(picture.width(), 96);
+    EXPECT_EQ(reference.height(), 64);
+    EXPECT_TRUE(std::filesystem::exists(scratch / "a-difference.png"));
+    const Outcome text =
+        nacre({"render", sceneFile(scratch), "-o", scratch / "a.png", "--size", "32x32", "--reference"});
+    ASSERT_EQ(text.code, 0) << text.err;
+    EXPECT_THAT(text.out, AllOf(HasSubstr("a.png: 32 x 32 pixels"), HasSubstr("PSNR")));
+    EXPECT_EQ(text.err, "");
+}
+
+TEST(CommandRender, MeshFilesAndEmptyScenes) {
+    const Scratch scratch;
+    writeFile(scratch / "triangle.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+    const Outcome mesh = nacre({"render", scratch / "triangle.obj", "-o", scratch / "m.png", "--size", "40x30"});
+    EXPECT_EQ(mesh.code, 0) << mesh.err;
+    writeFile(scratch / "empty.json", R"({"nacre_scene": 1, "sky": {"color": [0.5, 0.25, 0.125]}})");
+    const Outcome empty =
+        nacre({"render", scratch / "empty.json", "-o", scratch / "e.exr", "--size", "8x8", "--reference"});
+    ASSERT_EQ(empty.code, 0) << empty.err;
+    EXPECT_EQ(readImageFile(scratch / "e.exr").image.rgb(3, 3), Rgb(0.5, 0.25, 0.125));
+}
+
+TEST(CommandRender, WrongUsageIsTwo) {
+    const Scratch scratch;
+    const std::string scene = sceneFile(scratch), output = scratch / "a.png";
+    const std::vector<std::pair<std::vector<std::string>, std::string>> cases = {
+        {{"render", scene, "-o", scratch / "a.jpg"}, "ends in .exr or .png"},
+        {{"render", scene, "-o", output, "--size", "96"}, "WIDTHxHEIGHT"},
+        {{"render", scene, "-o", output, "--size", "0x10"}, "WIDTHxHEIGHT"},
+        {{"render", scene, "-o", output, "--samples", "0"}, "--samples"},
+        {{"render", scene, "-o", output, "--time", "soon"}, "--time"},
+        {{"render", scene}, "--output"}};
+    for (const auto& [arguments, words] : cases) {
+        const Outcome run = nacre(arguments);
+        EXPECT_EQ(run.code, 2) << run.err;
+        EXPECT_THAT(run.err, HasSubstr(words));
+    }
+}
+
+TEST(CommandRender, FailuresAreOneLine) {
+    const Scratch scratch;
+    const auto expect = [](const Outcome& run, const std::string& words) {
+        EXPECT_EQ(run.code, 1) << run.err;
+        EXPECT_THAT(run.err, HasSubstr(words));
+        EXPECT_EQ(std::count(run.err.begin(), run.err.end(), '\n'), 1) << run.err;
+    };
+    expect(nacre({"render", "/nowhere/scene.json", "-o", scratch / "a.png"}), "/nowhere/scene.json");
+    expect(nacre({"render", sceneFile(scratch), "-o", "/nowhere/a.png", "--size", "8x8"}), "/nowhere/a.png");
+    writeFile(scratch / "missing.json", R"({"nacre_scene": 1, "assets": {"gold": {"file": "gold.exr"}},
+        "meshes": {"square": {"quad": {"size": 2}}}, "materials": {"m": {"brdf": "gold"}},
+        "nodes": {"n": {"mesh": "square", "material": "m"}}})");
+    expect(nacre({"render", scratch / "missing.json", "-o", scratch / "a.png"}), "gold");
+    ::setenv("MESA_GL_VERSION_OVERRIDE", "2.1", 1);
+    const Outcome old = nacre({"render", sceneFile(scratch), "-o", scratch / "a.png"});
+    ::unsetenv("MESA_GL_VERSION_OVERRIDE");
+    expect(old, "expected a context of OpenGL 3.3 core");
+    EXPECT_THAT(old.err, HasSubstr("found OpenGL 2.1"));
+}
+
+}  // namespace
+}  // namespace nacre
