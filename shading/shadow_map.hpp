@@ -37,10 +37,11 @@ public:
     explicit ShadowMap(const SceneShadow& options = {}) : options_(options) {}
 
     /// Fits the view to light and scene (fitShadow) and draws. Leaves framebuffer 0 bound, the viewport the map's,
-    /// depth test LESS and depth write on, culling and blending off, front faces counter-clockwise. DualParaboloid:
-    /// edges of triangles are straight in the map; their depths are exact. Triangles of casters should span less than
-    /// about 10° seen from the light, or their outlines are off by more than a texel of 1024. \throws
-    /// std::invalid_argument as fitShadow says, for null casters; nacre::Error from the driver
+    /// depth test LESS and depth write on, culling and blending off, front faces counter-clockwise.
+    /// DualParaboloid: edges of triangles are straight in the map, where true ones are arcs of circles no smaller than
+    /// the horizon: a chord of c horizon radii is off by up to c²/8 of them, a texel of 1024 for edges of 7° to 14°.
+    /// Split longer ones. Depths are those of the triangles' planes at each texel's ray, long or short.
+    /// \throws std::invalid_argument as fitShadow says, for null casters; nacre::Error from the driver
     void update(ProgramLoader& loader, const Light& light, const ShadowScene& scene);
 
     bool drawn() const { return texture_.has_value(); }
