@@ -111,7 +111,7 @@ Rgb shade(const Field& field, const Vec3& position, const Vec3& toEye, const std
         const double skip = kShadowSkip / field.texelsPerUnit(l);
         const double end = light.directional ? std::numeric_limits<double>::max() : distance;
         if (shadows && field.firstInside({position, l, skip, end})) continue;
-        sum += brdf(wi, wo) * light.color * (wi.z / (light.directional ? 1 : distance * distance));
+        sum += brdf(wi, wo) * light.color * (wi.z * lightFalloff(light, position));
     }
     return sum;
 }

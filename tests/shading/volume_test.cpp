@@ -45,7 +45,9 @@ Camera lookingAt(bool orthographic) {
 }
 
 std::vector<Light> someLights() {
-    return {{true, glm::normalize(Vec3(1, 2, 1)), {1.0, 0.5, 0.25}}, {false, {-0.5, 1.5, 2.0}, {0.5, 1.0, 2.0}}};
+    return {{true, glm::normalize(Vec3(1, 2, 1)), {1.0, 0.5, 0.25}},
+            {false, {-0.5, 1.5, 2.0}, {0.5, 1.0, 2.0}},
+            {false, {1.0, 0.5, 2.5}, Rgb(3), SpotCone{glm::normalize(Vec3(-1, -0.4, -2.5)), 0.05, 0.3}}};
 }
 
 Image interior(const Image& coverage) {
