@@ -43,15 +43,14 @@ WeldedMesh weldMesh(const AnimatedMesh& animation, const std::string& name) {
     WeldedMesh mesh;
     mesh.weldOf.resize(count);
     std::unordered_multimap<glm::vec3, std::uint32_t, PositionHash> seen;
-    const std::vector<glm::vec3>& first = *std::max_element(
-        animation.frames.begin(), animation.frames.end(), [](const auto& a, const auto& b) {
+    const std::vector<glm::vec3>& first =
+        *std::max_element(animation.frames.begin(), animation.frames.end(), [](const auto& a, const auto& b) {
             return std::count_if(a.begin(), a.end(), hasNumbers) < std::count_if(b.begin(), b.end(), hasNumbers);
         });
     for (std::uint32_t v = 0; v < count; ++v) {
         const auto [begin, end] = seen.equal_range(first[v]);
-        const auto same = std::find_if(begin, end, [&](const auto& entry) {
-            return together(animation, mesh.firstOf[entry.second], v);
-        });
+        const auto same = std::find_if(
+            begin, end, [&](const auto& entry) { return together(animation, mesh.firstOf[entry.second], v); });
         if (same != end) {
             mesh.weldOf[v] = same->second;
             continue;
@@ -74,7 +73,8 @@ std::vector<glm::vec3> weldedPositions(const WeldedMesh& mesh, std::span<const g
     return positions;
 }
 
-std::vector<glm::vec3> angleWeightedNormals(std::span<const glm::uvec3> triangles, std::span<const glm::vec3> positions) {
+std::vector<glm::vec3> angleWeightedNormals(std::span<const glm::uvec3> triangles,
+                                            std::span<const glm::vec3> positions) {
     std::vector<glm::dvec3> sums(positions.size(), glm::dvec3(0));
     for (const glm::uvec3& t : triangles) {
         const glm::dvec3 p[3] = {positions[t.x], positions[t.y], positions[t.z]};

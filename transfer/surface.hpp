@@ -12,7 +12,7 @@ struct WeldedMesh {
     std::vector<std::uint32_t> weldOf;   ///< of each of the animation's vertices: its number here
     std::vector<std::uint32_t> firstOf;  ///< of each vertex here: the first of the animation's
     std::vector<glm::uvec3> triangles;   ///< of vertices here; those with a repeated vertex are left out
-    bool closed = false;                 ///< every edge belongs to two triangles that run along it in opposite directions
+    bool closed = false;  ///< every edge belongs to two triangles that run along it in opposite directions
     std::size_t vertexCount() const { return firstOf.size(); }
 };
 
@@ -24,6 +24,7 @@ std::vector<glm::vec3> weldedPositions(const WeldedMesh& mesh, std::span<const g
 
 /// Unit normals, each triangle weighted by its angle at the vertex (Thürmer & Wüthrich 1998); (0,0,0) where no triangle
 /// has area or the sum vanishes. \param positions  finite
-std::vector<glm::vec3> angleWeightedNormals(std::span<const glm::uvec3> triangles, std::span<const glm::vec3> positions);
+std::vector<glm::vec3> angleWeightedNormals(std::span<const glm::uvec3> triangles,
+                                            std::span<const glm::vec3> positions);
 
 }  // namespace nacre
