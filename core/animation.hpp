@@ -23,4 +23,23 @@ struct AnimatedMesh {
 ///         range
 void checkAnimation(const AnimatedMesh& animation, const std::string& name);
 
+/// The same motion at another rate: linear between frames, from the first for as long as there are frames.
+/// \throws std::invalid_argument for a rate that isn't finite and > 0; nacre::Error naming the mesh for more than
+/// 100000
+///         frames, or as checkAnimation
+AnimatedMesh resampled(const AnimatedMesh& animation, double framesPerSecond, const std::string& name);
+
+/// A body that moves as a whole.
+struct MovingBody {
+    std::vector<glm::vec3> positions;
+    std::vector<glm::vec2> uvs;  ///< one a vertex, or none
+    std::vector<glm::uvec3> triangles;
+    std::vector<glm::dmat4> frames;  ///< to world coordinates; determinant > 0, so that triangles keep their sides
+};
+
+/// Bodies that move by themselves as one mesh, in the order given.
+/// \throws std::invalid_argument when bodies differ in their number of frames, or a matrix mirrors or isn't finite;
+///         nacre::Error naming the mesh as checkAnimation
+AnimatedMesh rigidAnimation(const std::vector<MovingBody>& bodies, double framesPerSecond, const std::string& name);
+
 }  // namespace nacre
