@@ -47,8 +47,8 @@ double cosineFactor(int l) {
 }  // namespace
 
 std::vector<double> tracedTransfer(std::span<const glm::uvec3> triangles, std::span<const glm::vec3> positions,
-                                   std::span<const glm::vec3> normals, std::span<const std::uint32_t> vertices, int order,
-                                   std::size_t rays) {
+                                   std::span<const glm::vec3> normals, std::span<const std::uint32_t> vertices,
+                                   int order, std::size_t rays) {
     require(order >= 0 && rays >= 1, "traced transfer: expected an order of 0 or more and at least one ray");
     require(normals.size() == positions.size(), "traced transfer: expected a normal a position");
     Mesh mesh;
@@ -67,7 +67,8 @@ std::vector<double> tracedTransfer(std::span<const glm::uvec3> triangles, std::s
         const Vec2 shift(radicalInverse(vertices[i] + 1, 3), radicalInverse(vertices[i] + 1, 5));
         std::vector<double> hidden(count, 0);
         for (std::size_t k = 0; k < rays; ++k) {
-            const Vec2 point = Vec2((static_cast<double>(k) + 0.5) / static_cast<double>(rays), radicalInverse(k, 2)) + shift;
+            const Vec2 point =
+                Vec2((static_cast<double>(k) + 0.5) / static_cast<double>(rays), radicalInverse(k, 2)) + shift;
             const Vec3 d = cosineHemisphere(point - glm::floor(point)), s = d.x * t + d.y * b + d.z * n;
             if (!scene.occluded({p, s, 0, 1e3 * size})) continue;
             const std::vector<double> y = realHarmonics(order, s);
@@ -76,7 +77,8 @@ std::vector<double> tracedTransfer(std::span<const glm::uvec3> triangles, std::s
         const std::vector<double> about = realHarmonics(order, n);
         for (int l = 0; l <= order; ++l)
             for (std::size_t c = static_cast<std::size_t>(l * l); c < static_cast<std::size_t>((l + 1) * (l + 1)); ++c)
-                truth[i * count + c] = factors[static_cast<std::size_t>(l)] * about[c] - hidden[c] / static_cast<double>(rays);
+                truth[i * count + c] =
+                    factors[static_cast<std::size_t>(l)] * about[c] - hidden[c] / static_cast<double>(rays);
     });
     return truth;
 }
@@ -85,7 +87,8 @@ TransferError transferError(std::span<const float> found, std::span<const double
     require(coefficients > 0 && found.size() == truth.size() && truth.size() % coefficients == 0,
             "transfer error: expected as many coefficients as the truth has");
     double openSquared = 0;  // |V| of an open vertex: Σ factor² (2l + 1)/4π, its order from the count
-    for (int l = 0; static_cast<std::size_t>(l * l) < coefficients; ++l) openSquared += sqr(cosineFactor(l)) * (2 * l + 1) / (4 * kPi);
+    for (int l = 0; static_cast<std::size_t>(l * l) < coefficients; ++l)
+        openSquared += sqr(cosineFactor(l)) * (2 * l + 1) / (4 * kPi);
     TransferError error;
     double offSquared = 0, allSquared = 0;
     std::vector<double> relative;
@@ -97,8 +100,10 @@ TransferError transferError(std::span<const float> found, std::span<const double
         }
         offSquared += off;
         allSquared += all;
-        if (all < 1e-4 * openSquared) ++error.buried;
-        else relative.push_back(std::sqrt(off / all));
+        if (all < 1e-4 * openSquared)
+            ++error.buried;
+        else
+            relative.push_back(std::sqrt(off / all));
     }
     error.vertices = relative.size();
     error.total = allSquared > 0 ? std::sqrt(offSquared / allSquared) : 0;

@@ -12,7 +12,7 @@
 namespace nacre {
 namespace {
 
-constexpr std::size_t kGroup = 32;  ///< vertices that share a list
+constexpr std::size_t kGroup = 16;  ///< vertices that share a list
 
 /// Of this thread: what waits for a processor isn't work.
 double now() {

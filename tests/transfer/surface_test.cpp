@@ -72,7 +72,8 @@ TEST(Surface, NormalsIgnoreHowACubeIsCut) {  // each corner sees three right ang
 TEST(Surface, NoTriangleNoNormal) {
     const std::vector<glm::vec3> positions = {{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {5, 5, 5}};
     const std::vector<glm::uvec3> triangles = {{0, 1, 2}};
-    for (const glm::vec3& n : vertexNormals(triangles, cornersOfVertices(triangles, 4), positions)) EXPECT_EQ(n, glm::vec3(0));
+    for (const glm::vec3& n : vertexNormals(triangles, cornersOfVertices(triangles, 4), positions))
+        EXPECT_EQ(n, glm::vec3(0));
 }
 
 }  // namespace
