@@ -93,8 +93,6 @@ TEST_F(AnimatedMeshFile, WeightsThatDontSumToOneAreDividedAndTold) {
         loadAnimatedMesh(write("w.glb", file.bytes()), {"", 1, [&](const std::string& line) { told += line; }});
     EXPECT_LT(glm::length(mesh.frames[1][2] - glm::vec3(-0.5f, 1.5f, 0)), kSingle);  // halfway, not drawn to the origin
     EXPECT_THAT(told, HasSubstr("don't sum to 1"));
-    file.weights = {-0.5f, 1.5f};
-    EXPECT_THAT(errorOf(write("n.glb", file.bytes())), HasSubstr("expected weights >= 0"));
 }
 
 TEST_F(AnimatedMeshFile, AClipOfNoLengthIsOneFrame) {
@@ -192,9 +190,9 @@ std::string md2() {
     }
     std::string out = "IDP2";
     for (const std::size_t v : {8ul, 64ul, 64ul, 52ul, 0ul, 3ul, 3ul, 1ul, 0ul, 3ul, 68ul, 68ul, 80ul, 92ul,
-                                92ul + frames.size(), 92ul + frames.size()})
+                                92ul + frames.size(), 156ul + frames.size()})
         out += word(static_cast<std::uint32_t>(v));
-    return out + texture + triangle + frames;
+    return out + texture + triangle + frames + std::string(64, 0);  // as many bytes of drawing commands
 }
 
 TEST_F(AnimatedMeshFile, Md2FramesAreClipsByTheirNames) {
