@@ -39,11 +39,17 @@ Mask drawn(int size, const std::vector<Corners>& triangles, bool bothSides, Vect
     return mask;
 }
 
-/// The direction that a bit stands for: its row's azimuth, and the row's own offset within the step.
-Vec3 directionOf(int size, int row, int step) {
+/// The directions that bits stand for, by row and step: the row's azimuth, and its own offset within the step.
+std::vector<Vec3> directionsOf(int size) {
     const auto tables = maskRows(size);
-    const double u = std::min(1.0, (step + 1 - double{tables->dither[row]}) / size), phi = 2 * kPi * (row + 0.5) / size;
-    return {std::sqrt(u) * std::cos(phi), std::sqrt(u) * std::sin(phi), std::sqrt(1 - u)};
+    std::vector<Vec3> directions;
+    for (int row = 0; row < size; ++row)
+        for (int step = 0; step < size; ++step) {
+            const double u = std::min(1.0, (step + 1 - double{tables->dither[row]}) / size);
+            const double phi = 2 * kPi * (row + 0.5) / size;
+            directions.emplace_back(std::sqrt(u) * std::cos(phi), std::sqrt(u) * std::sin(phi), std::sqrt(1 - u));
+        }
+    return directions;
 }
 
 /// Three planes, in double. Positive inside; the least tells how near the direction is to an edge.
@@ -73,7 +79,8 @@ constexpr double kEdge =
 
 TEST(MaskKernel, BitsAreWhatThreePlanesSay) {
     std::mt19937 random(7);
-    for (const int size : {16, 32, 64, 128})
+    for (const int size : {16, 32, 64, 128}) {
+        const std::vector<Vec3> directions = directionsOf(size);
         for (const double spread : {0.05, 0.3, 1.0, 3.0})
             for (int i = 0; i < 60; ++i) {
                 const Corners t = randomTriangle(random, spread);
@@ -81,13 +88,15 @@ TEST(MaskKernel, BitsAreWhatThreePlanesSay) {
                 const Mask mask = drawn(size, {t}, bothSides);
                 for (int row = 0; row < size; ++row)
                     for (int step = 0; step < size; ++step) {
-                        const double inside = insideness(t, directionOf(size, row, step), bothSides);
+                        const double inside =
+                            insideness(t, directions[static_cast<std::size_t>(row * size + step)], bothSides);
                         if (std::abs(inside) < kEdge) continue;
                         ASSERT_EQ(bitOf(mask, size, row, step), inside > 0)
                             << "size " << size << " spread " << spread << " triangle " << i << " row " << row
                             << " step " << step;
                     }
             }
+    }
 }
 
 TEST(MaskKernel, AllProcessorsGiveTheSameBits) {
