@@ -6,6 +6,7 @@
 // Each namespace has: Floats (16), Mask, load, larger, smaller, root, any.
 #define NACRE_INLINE inline __attribute__((always_inline))
 
+#define NACRE_SET 1
 namespace plain {
 #include "core/wide_types.inl"
 inline bool any(const Mask& m) {
@@ -16,10 +17,12 @@ inline bool any(const Mask& m) {
 }
 #include NACRE_KERNEL
 }  // namespace plain
+#undef NACRE_SET
 
 #if defined(__x86_64__)
 #pragma GCC push_options
 #pragma GCC target("avx2")
+#define NACRE_SET 2
 namespace avx2 {
 #include "core/wide_types.inl"
 NACRE_INLINE bool any(const Mask& m) {
@@ -30,10 +33,12 @@ NACRE_INLINE bool any(const Mask& m) {
 }
 #include NACRE_KERNEL
 }  // namespace avx2
+#undef NACRE_SET
 #pragma GCC pop_options
 
 #pragma GCC push_options
 #pragma GCC target("avx512f,avx512dq,avx512bw,avx512vl,prefer-vector-width=512")
+#define NACRE_SET 512
 namespace avx512 {
 #include "core/wide_types.inl"
 NACRE_INLINE bool any(const Mask& m) {
@@ -43,6 +48,7 @@ NACRE_INLINE bool any(const Mask& m) {
 }
 #include NACRE_KERNEL
 }  // namespace avx512
+#undef NACRE_SET
 #pragma GCC pop_options
 
 inline bool hasAvx512() {

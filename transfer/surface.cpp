@@ -4,6 +4,8 @@
 #include <cstring>
 #include <unordered_map>
 
+#include "core/parallel.hpp"
+
 namespace nacre {
 namespace {
 
@@ -43,14 +45,15 @@ WeldedMesh weldMesh(const AnimatedMesh& animation, const std::string& name) {
     WeldedMesh mesh;
     mesh.weldOf.resize(count);
     std::unordered_multimap<glm::vec3, std::uint32_t, PositionHash> seen;
-    const std::vector<glm::vec3>& first =
-        *std::max_element(animation.frames.begin(), animation.frames.end(), [](const auto& a, const auto& b) {
+    const std::vector<glm::vec3>& first = *std::max_element(
+        animation.frames.begin(), animation.frames.end(), [](const auto& a, const auto& b) {
             return std::count_if(a.begin(), a.end(), hasNumbers) < std::count_if(b.begin(), b.end(), hasNumbers);
         });
     for (std::uint32_t v = 0; v < count; ++v) {
         const auto [begin, end] = seen.equal_range(first[v]);
-        const auto same = std::find_if(
-            begin, end, [&](const auto& entry) { return together(animation, mesh.firstOf[entry.second], v); });
+        const auto same = std::find_if(begin, end, [&](const auto& entry) {
+            return together(animation, mesh.firstOf[entry.second], v);
+        });
         if (same != end) {
             mesh.weldOf[v] = same->second;
             continue;
@@ -73,24 +76,43 @@ std::vector<glm::vec3> weldedPositions(const WeldedMesh& mesh, std::span<const g
     return positions;
 }
 
-std::vector<glm::vec3> angleWeightedNormals(std::span<const glm::uvec3> triangles,
-                                            std::span<const glm::vec3> positions) {
-    std::vector<glm::dvec3> sums(positions.size(), glm::dvec3(0));
-    for (const glm::uvec3& t : triangles) {
-        const glm::dvec3 p[3] = {positions[t.x], positions[t.y], positions[t.z]};
-        const glm::dvec3 cross = glm::cross(p[1] - p[0], p[2] - p[0]);
-        const double area = glm::length(cross);
-        if (!(area > 0)) continue;
-        for (int c = 0; c < 3; ++c) {
-            const glm::dvec3 a = p[(c + 1) % 3] - p[c], b = p[(c + 2) % 3] - p[c];
-            sums[t[c]] += cross / area * std::atan2(area, glm::dot(a, b));
-        }
+CornersOfVertices cornersOfVertices(std::span<const glm::uvec3> triangles, std::size_t vertices) {
+    CornersOfVertices corners;
+    corners.first.assign(vertices + 1, 0);
+    for (const glm::uvec3& t : triangles)
+        for (int c = 0; c < 3; ++c) ++corners.first[t[c] + 1];
+    for (std::size_t v = 0; v < vertices; ++v) corners.first[v + 1] += corners.first[v];
+    corners.order.resize(3 * triangles.size());
+    std::vector<std::uint32_t> next(corners.first.begin(), corners.first.end() - 1);
+    for (std::uint32_t t = 0; t < triangles.size(); ++t)
+        for (std::uint32_t c = 0; c < 3; ++c) corners.order[next[triangles[t][static_cast<int>(c)]]++] = 3 * t + c;
+    return corners;
+}
+
+static glm::vec3 vertexNormal(std::span<const glm::uvec3> triangles, std::span<const std::uint32_t> corners,
+                              std::span<const glm::vec3> positions) {
+    glm::dvec3 sum(0);
+    for (const std::uint32_t corner : corners) {
+        const glm::uvec3& t = triangles[corner / 3];
+        const int c = static_cast<int>(corner % 3);
+        const glm::dvec3 p = positions[t[c]];
+        const glm::dvec3 a = glm::dvec3(positions[t[(c + 1) % 3]]) - p, b = glm::dvec3(positions[t[(c + 2) % 3]]) - p;
+        const double weight = glm::dot(a, a) * glm::dot(b, b);
+        if (weight > 0) sum += glm::cross(a, b) / weight;
     }
-    std::vector<glm::vec3> normals(positions.size(), glm::vec3(0));
-    for (std::size_t v = 0; v < sums.size(); ++v) {
-        const double length = glm::length(sums[v]);
-        if (length > 1e-12) normals[v] = sums[v] / length;
-    }
+    const double length = glm::length(sum);
+    return length > 0 && std::isfinite(length) ? glm::vec3(sum / length) : glm::vec3(0);
+}
+
+std::vector<glm::vec3> vertexNormals(std::span<const glm::uvec3> triangles, const CornersOfVertices& corners,
+                                     std::span<const glm::vec3> positions, unsigned threads) {
+    std::vector<glm::vec3> normals(positions.size());
+    constexpr std::size_t kChunk = 256;
+    parallelFor((positions.size() + kChunk - 1) / kChunk, threads, [&](std::size_t chunk) {
+        for (std::size_t v = chunk * kChunk; v < std::min(positions.size(), (chunk + 1) * kChunk); ++v)
+            normals[v] = vertexNormal(
+                triangles, std::span(corners.order).subspan(corners.first[v], corners.first[v + 1] - corners.first[v]), positions);
+    });
     return normals;
 }
 
