@@ -2,6 +2,7 @@
 #pragma once
 
 #include <functional>
+#include <span>
 
 #include "core/math.hpp"
 #include "transfer/harmonic_rotation.hpp"
