@@ -15,7 +15,7 @@ namespace nacre {
 namespace {
 
 #define NACRE_KERNEL "bump/ellipse_kernel.inl"
-#include "bump/wide.inl"
+#include "core/wide.inl"
 
 const auto kMisjudged = NACRE_WIDEST(misjudged);
 

@@ -1,4 +1,4 @@
-// How much of the unit disk an ellipse misjudges; bump/wide.inl says where this is compiled.
+// How much of the unit disk an ellipse misjudges; core/wide.inl says where this is compiled.
 
 /// \param lit  radius of the lit part towards each azimuth, `count` of them, a multiple of kWide
 /// \param c, s  cosines and sines of the azimuths

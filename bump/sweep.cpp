@@ -10,7 +10,7 @@ namespace nacre {
 namespace {
 
 #define NACRE_KERNEL "bump/sweep_kernel.inl"
-#include "bump/wide.inl"
+#include "core/wide.inl"
 
 const auto kHorizon = NACRE_WIDEST(horizon);
 const auto kAngles = NACRE_WIDEST(angles);

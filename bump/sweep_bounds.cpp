@@ -11,7 +11,7 @@ namespace nacre {
 namespace {
 
 #define NACRE_KERNEL "bump/sweep_bounds_kernel.inl"
-#include "bump/wide.inl"
+#include "core/wide.inl"
 
 const auto kLargest = NACRE_WIDEST(largest);
 const auto kLargestOf = NACRE_WIDEST(largestOf);

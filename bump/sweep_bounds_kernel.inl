@@ -1,4 +1,4 @@
-// The arithmetic of sweep_bounds.cpp; bump/wide.inl says where this is compiled.
+// The arithmetic of sweep_bounds.cpp; core/wide.inl says where this is compiled.
 
 /// Largest of `count` rows' elements, each of them; `length` is a multiple of 16.
 void largest(float* to, const float* const* from, int count, int length) {

@@ -1,4 +1,4 @@
-// The arithmetic of sweep.hpp; bump/wide.inl says where this is compiled.
+// The arithmetic of sweep.hpp; core/wide.inl says where this is compiled.
 
 constexpr int kVectors = kSweepLanes / kWide;
 

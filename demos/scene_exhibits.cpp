@@ -279,8 +279,10 @@ Exhibit shadowedVolumes(const Task& task) {
 }  // namespace
 
 const std::vector<NamedExhibit>& sceneExhibits() {
-    static const std::vector<NamedExhibit> all = {
-        {"scene-composed", composed}, {"volume-surface", volume}, {"volume-shadows", shadowedVolumes}};
+    static const std::vector<NamedExhibit> all = {{"shadow-study", shadowStudyExhibit},
+                                                  {"scene-composed", composed},
+                                                  {"volume-surface", volume},
+                                                  {"volume-shadows", shadowedVolumes}};
     return all;
 }
 

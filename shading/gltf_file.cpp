@@ -53,6 +53,22 @@ bool isKnownExtension(const std::string& name) {
     return false;
 }
 
+/// The document in place of the file's own.
+std::vector<std::uint8_t> contained(const json& document, const GltfFile& file) {
+    std::string text = document.dump();
+    if (!file.isBinary) return {text.begin(), text.end()};
+    text.resize((text.size() + 3) / 4 * 4, ' ');  // chunks begin at multiples of four
+    std::vector<std::uint8_t> bytes;
+    putWord(bytes, kMagic);
+    putWord(bytes, 2);
+    putWord(bytes, kHeader + kChunkHeader + text.size() + file.chunks.size());
+    putWord(bytes, text.size());
+    putWord(bytes, kJsonChunk);
+    bytes.insert(bytes.end(), text.begin(), text.end());
+    bytes.insert(bytes.end(), file.chunks.begin(), file.chunks.end());
+    return bytes;
+}
+
 json bare(const std::string& name) { return {{"name", name}}; }
 
 }  // namespace
@@ -97,18 +113,15 @@ std::vector<std::uint8_t> geometryOf(const GltfFile& file) {
     }
     out["scenes"] = {{{"nodes", roots}}};
     out["scene"] = 0;
-    std::string text = out.dump();
-    if (!file.isBinary) return {text.begin(), text.end()};
-    text.resize((text.size() + 3) / 4 * 4, ' ');  // chunks begin at multiples of four
-    std::vector<std::uint8_t> bytes;
-    putWord(bytes, kMagic);
-    putWord(bytes, 2);
-    putWord(bytes, kHeader + kChunkHeader + text.size() + file.chunks.size());
-    putWord(bytes, text.size());
-    putWord(bytes, kJsonChunk);
-    bytes.insert(bytes.end(), text.begin(), text.end());
-    bytes.insert(bytes.end(), file.chunks.begin(), file.chunks.end());
-    return bytes;
+    return contained(out, file);
+}
+
+std::vector<std::uint8_t> withNumberedNodes(const GltfFile& file) {
+    json out = file.document;
+    if (out.contains("nodes"))
+        for (std::size_t i = 0; out["nodes"].is_array() && i < out["nodes"].size(); ++i)
+            if (out["nodes"][i].is_object()) out["nodes"][i]["name"] = "n" + std::to_string(i);
+    return contained(out, file);
 }
 
 }  // namespace nacre

@@ -28,4 +28,8 @@ GltfFile parseGltf(std::span<const std::uint8_t> bytes, const std::filesystem::p
 /// hierarchy, textures, skins or lights. \return bytes of the same container
 std::vector<std::uint8_t> geometryOf(const GltfFile& file);
 
+/// The whole file with its nodes named "n0", "n1", … by their place, because assimp 5.2 finds nodes by name and files
+/// may use a name twice. \return bytes of the same container
+std::vector<std::uint8_t> withNumberedNodes(const GltfFile& file);
+
 }  // namespace nacre

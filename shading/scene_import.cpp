@@ -1,7 +1,5 @@
 #include "shading/scene_import.hpp"
 
-#include <assimp/DefaultIOSystem.h>
-#include <assimp/MemoryIOWrapper.h>
 #include <assimp/config.h>
 #include <assimp/postprocess.h>
 #include <assimp/scene.h>
@@ -13,6 +11,7 @@
 #include "core/error.hpp"
 #include "factorize/models/models.hpp"
 #include "shading/assimp_mesh.hpp"
+#include "shading/assimp_replaced.hpp"
 #include "shading/gltf_scene.hpp"
 #include "shading/scene_bounds.hpp"
 
@@ -22,20 +21,6 @@ namespace fs = std::filesystem;
 using Note = std::function<void(const std::string&)>;
 
 namespace {
-
-/// Other bytes in the place of one file; what they refer to is read from the disk.
-class Replaced : public Assimp::DefaultIOSystem {
-public:
-    Replaced(std::string path, const std::vector<std::uint8_t>& bytes) : path_(std::move(path)), bytes_(bytes) {}
-    Assimp::IOStream* Open(const char* file, const char* mode) override {
-        if (path_ == file) return new Assimp::MemoryIOStream(bytes_.data(), bytes_.size());
-        return DefaultIOSystem::Open(file, mode);
-    }
-
-private:
-    std::string path_;
-    const std::vector<std::uint8_t>& bytes_;
-};
 
 const aiScene& open(Assimp::Importer& importer, const std::string& name, unsigned steps) {
     importer.SetPropertyInteger(AI_CONFIG_PP_SBP_REMOVE, aiPrimitiveType_LINE | aiPrimitiveType_POINT);
@@ -198,7 +183,7 @@ ImportedScene importGltf(const fs::path& path, const Note& note) {
     const std::vector<std::uint8_t> bytes = geometryOf(file);
     Assimp::Importer importer;
     if (!read.meshNames.empty() || !read.channels.empty()) {
-        importer.SetIOHandler(new Replaced(name, bytes));  // the importer deletes it
+        importer.SetIOHandler(new AssimpReplaced(name, bytes));  // the importer deletes it
         const aiScene& scene = open(importer, name, 0);
         GltfGeometry geometry(scene, read, name, note);
         placeMeshes(read.scene, geometry);

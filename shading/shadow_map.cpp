@@ -237,10 +237,10 @@ ShaderDefines shadowDefines(std::span<const ShadowView* const> views) {
     for (std::size_t i = 0; i < views.size(); ++i) {
         if (views[i] == nullptr) continue;
         if (out.empty()) out.emplace_back("NACRE_SHADOWS", "1");
-        out.emplace_back(fmt::format("NACRE_SHADOW_{}", i), kKinds[static_cast<std::size_t>(views[i]->kind)]);
-        out.emplace_back(fmt::format("NACRE_SHADOW_N_{}", i), std::to_string(views[i]->filter));
-        out.emplace_back(fmt::format("NACRE_SHADOW_B_{}", i), std::to_string(views[i]->bits));
-        out.emplace_back(fmt::format("NACRE_SHADOW_C_{}", i), std::to_string(views[i]->cascades.size()));
+        const ShadowView& view = *views[i];
+        out.emplace_back(fmt::format("NACRE_SHADOW_{}", i),
+                         fmt::format("{}, {}, {}, {}", kKinds[static_cast<std::size_t>(view.kind)], view.filter,
+                                     view.bits, view.cascades.size()));
     }
     return out;
 }
@@ -257,7 +257,7 @@ void bindShadows(const Program& program, std::span<const ShadowMap* const> shado
         fromWorld[i] = glm::mat4(view.fromWorld);
         ranges[i] = glm::vec4(Vec4(view.near, view.far - view.near, view.resolution, view.bias.value_or(-1)));
         const double half = view.size / 2.0;
-        sizes[i] = glm::vec4(Vec4(view.size, half, view.scale * half, 1 / (view.scale * half)));
+        sizes[i] = glm::vec4(Vec4(view.size, 1.0 / view.size, view.scale * half, 1 / (view.scale * half)));
         for (std::size_t k = 0; k < view.cascades.size(); ++k) {
             const Vec3& c = view.cascades[k];
             cascades[4 * i + k] = glm::vec4(Vec4((c.x + 1) * half, (c.y + 1) * half, c.z * half, 1 / (c.z * half)));

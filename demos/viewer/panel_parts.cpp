@@ -103,6 +103,17 @@ std::filesystem::path foundCombo(const char* label, const char* preview, const s
     return out;
 }
 
+void reliefCombo(ViewerSession& session, PanelState& state, std::size_t material) {
+    const std::optional<SceneRelief>& relief = session.scene().materials[material].relief;
+    const std::string now =
+        relief ? session.scene().assets[static_cast<std::size_t>(relief->asset)].file.filename().string()
+               : "baked reliefs...";
+    const bool remove = relief && ImGui::Button("Flat");
+    if (relief) ImGui::SameLine();
+    const std::filesystem::path file = foundCombo("relief", now.c_str(), "bump", state);
+    if (remove || !file.empty()) session.setRelief(material, remove ? std::filesystem::path() : file);
+}
+
 void assetFacts(const GpuAsset& asset) {
     const nlohmann::json& meta = asset.meta;
     if (const auto bytes = meta.find("bytes"); bytes != meta.end() && bytes->is_number())
@@ -131,6 +142,7 @@ void materialSection(ViewerSession& session, PanelState& state) {
     ImGui::SameLine();
     if (ImGui::Button("Load") || entered) session.setNodeMaterial(node, state.fileText);
     const auto material = static_cast<std::size_t>(session.scene().nodes[node].material);
+    reliefCombo(session, state, material);
     SceneMaterial value = session.scene().materials[material];
     if (colorEdit("ambient", value.ambient)) session.setMaterial(material, value);
 }

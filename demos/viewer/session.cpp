@@ -8,10 +8,12 @@
 #include <chrono>
 #include <set>
 
+#include "core/asset.hpp"
 #include "core/error.hpp"
 #include "demos/viewer/scene_edits.hpp"
 #include "shading/image_output.hpp"
 #include "shading/scene_file.hpp"
+#include "shading/scene_programs.hpp"
 
 namespace nacre {
 
@@ -189,6 +191,25 @@ bool ViewerSession::setMaterial(std::size_t material, const SceneMaterial& value
             renderer_->setMaterial(material, last);
             throw;
         }
+    });
+}
+
+bool ViewerSession::setRelief(std::size_t material, const fs::path& file) {
+    return attempt("relief", [&] {
+        SceneDescription next = scene();
+        std::optional<SceneRelief>& relief = next.materials.at(material).relief;
+        if (file.empty()) {
+            relief.reset();
+        } else {
+            const AssetTraits traits = traitsOf(readAsset(file), file.string());
+            if (!relief) relief.emplace();
+            relief->asset = assetFor(next, file);
+            relief->shadow = traits.ellipses   ? BumpShadow::Ellipse
+                             : traits.horizons ? BumpShadow::Horizon
+                                               : BumpShadow::None;
+        }
+        apply(std::move(next));
+        watchFiles();
     });
 }
 

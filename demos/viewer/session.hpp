@@ -77,6 +77,9 @@ public:
     /// Gives a node the material that a text stands for (materialFor).
     bool setNodeMaterial(std::size_t node, const std::string& text);
     bool setMaterial(std::size_t material, const SceneMaterial& value);
+    /// Gives a material the relief of a bump asset, shadowed by what the file holds: ellipses, else horizons, else not.
+    /// Scale and light of a relief that it has stay. An empty path takes the relief away.
+    bool setRelief(std::size_t material, const std::filesystem::path& file);
     bool replaceAsset(std::size_t asset, const std::filesystem::path& file);
     bool setSky(const SceneSky& value);
     /// Another scene file.

@@ -59,18 +59,15 @@ float nacre_shadow_bias(int n, float texel, float cos2, float resolution) {
 // Share of the filter's texels whose stored surface point isn't above the plane dot(m, x) = plane; m points away from
 // the light. at: texel coordinate of the point; range: depth of 0, and of 1 less that.
 // side: for a texel coordinate c and a depth z, dot(m, x) is dot(side, (c, 1)) z (SPOT, CUBE) or dot(side, (c, 1)) +
-// m.z z (DIRECTIONAL); unit: DUAL_PARABOLOID's map coordinate a texel. size: texels along an edge.
+// m.z z (DIRECTIONAL); size: texels along an edge, its inverse, -, and DUAL_PARABOLOID's map coordinate a texel.
 // A texel's weight is its overlap with a box of n - 1 texels about the point. C++: shadowLit.
-float nacre_shadow_filter(usampler2DArray map, int layer, int kind, int n, int bits, float size, vec2 range, float unit,
-                          vec2 at, vec3 m, vec3 side, float plane) {
-    // The filter's texels are within the map; what is clamped is outside of it, or a last block without one of them.
+// Sampled at texel centres, clamped to the edge: texelFetch, which llvmpipe checks against the bounds, costs more.
+float nacre_shadow_filter(usampler2DArray map, int layer, int kind, int n, int bits, vec4 size, vec2 range, vec2 at,
+                          vec3 m, vec3 side, float plane) {
     vec2 low = at - 0.5 * float(n - 1);
-    vec2 f = low - floor(low);
-    bool odd = fract(floor(low.y) * 0.5) > 0.25;
-    float blocks = float((n + 4) / 4);
-    vec2 first = clamp(vec2(floor(low.x), floor(low.y * 0.5)), vec2(0.0), vec2(size - float(n), 0.5 * size - blocks));
-    ivec2 corner = ivec2(first);
-    first.y *= 2.0;
+    vec2 first = vec2(floor(low.x), 2.0 * floor(0.5 * low.y));
+    vec2 f = low - first;
+    bool odd = f.y >= 1.0;
     first += 0.5;  // centre of the first texel
     float start = dot(side, vec3(first, 1.0));
     float sum = 0.0;
@@ -78,11 +75,13 @@ float nacre_shadow_filter(usampler2DArray map, int layer, int kind, int n, int b
         vec4 rows = first.y + float(4 * j) + vec4(0.0, 1.0, 2.0, 3.0);
         vec4 wy = clamp(0.5 * float(n) - abs(rows - at.y), 0.0, 1.0);
         if (n == 1) wy = odd ? vec4(0.0, 1.0, 0.0, 0.0) : vec4(1.0, 0.0, 0.0, 0.0);
-        if (n == 3) wy = odd ? vec4(0.0, 1.0 - f.y, 1.0, f.y) : vec4(1.0 - f.y, 1.0, f.y, 0.0);  // the same, sooner
+        // the same, sooner
+        if (n == 3) wy = odd ? vec4(0.0, 2.0 - f.y, 1.0, f.y - 1.0) : vec4(1.0 - f.y, 1.0, f.y, 0.0);
         vec4 along = (start + float(4 * j) * side.y) + side.y * vec4(0.0, 1.0, 2.0, 3.0);
         for (int i = 0; i < n; ++i) {
             float wx = n == 1 ? 1.0 : i == 0 ? 1.0 - f.x : i == n - 1 ? f.x : 1.0;
-            uvec4 stored = texelFetch(map, ivec3(corner + ivec2(i, 2 * j), layer), 0);
+            vec2 block = first + vec2(float(i), float(4 * j) + 0.5);  // its middle, in texels
+            uvec4 stored = textureLod(map, vec3(block * size.y, float(layer)), 0.0);
             vec4 z = nacre_shadow_decode(stored, range, bits);
             vec4 point = along + float(i) * side.x;
             if (kind == NACRE_SHADOW_DIRECTIONAL)
@@ -90,10 +89,10 @@ float nacre_shadow_filter(usampler2DArray map, int layer, int kind, int n, int b
             else
                 point *= z;
             if (kind == NACRE_SHADOW_DUAL_PARABOLOID) {
-                vec2 p = (first + vec2(float(i), float(4 * j)) - 0.5 * size) * unit;
-                point = vec4(dot(m, nacre_shadow_paraboloid(p)), dot(m, nacre_shadow_paraboloid(p + vec2(0.0, unit))),
-                             dot(m, nacre_shadow_paraboloid(p + vec2(0.0, 2.0 * unit))),
-                             dot(m, nacre_shadow_paraboloid(p + vec2(0.0, 3.0 * unit)))) * z;
+                vec2 p = (first + vec2(float(i), float(4 * j)) - 0.5 * size.x) * size.w;
+                point = vec4(dot(m, nacre_shadow_paraboloid(p)), dot(m, nacre_shadow_paraboloid(p + vec2(0.0, size.w))),
+                             dot(m, nacre_shadow_paraboloid(p + vec2(0.0, 2.0 * size.w))),
+                             dot(m, nacre_shadow_paraboloid(p + vec2(0.0, 3.0 * size.w)))) * z;
             }
             float column = (point.x >= plane ? wy.x : 0.0) + (point.y >= plane ? wy.y : 0.0);
             column += (point.z >= plane ? wy.z : 0.0) + (point.w >= plane ? wy.w : 0.0);

@@ -115,10 +115,8 @@ std::vector<ShaderDefines> shadowChoices() {
     for (int i = 0; i < 8; ++i) {
         const std::string kind = std::string("NACRE_SHADOW_") + kinds[i % 4], at = std::to_string(i);
         const auto add = [&](ShaderDefines& to, const std::string& light) {
-            to.insert(to.end(), {{"NACRE_SHADOW_" + light, kind},
-                                 {"NACRE_SHADOW_N_" + light, std::to_string(1 + i % 5)},
-                                 {"NACRE_SHADOW_B_" + light, i % 3 == 0 ? "16" : "32"},
-                                 {"NACRE_SHADOW_C_" + light, "3"}});
+            to.emplace_back("NACRE_SHADOW_" + light,
+                            kind + ", " + std::to_string(1 + i % 5) + (i % 3 == 0 ? ", 16" : ", 32") + ", 3");
         };
         add(all, at);
         if (i < 4) add(out.emplace_back(ShaderDefines{{"NACRE_SHADOWS", "1"}}), "0");

@@ -1,9 +1,7 @@
 // Shadow maps of the lights. Only what the program's #defines ask for is compiled in; a light without is never shadowed.
 //   NACRE_SHADOWS      any
-//   NACRE_SHADOW_i     kind of light i's map: NACRE_SHADOW_SPOT, ... (i = 0 to 7)
-//   NACRE_SHADOW_N_i   texels along the filter's edge
-//   NACRE_SHADOW_B_i   bits, 16 or 32
-//   NACRE_SHADOW_C_i   cascades
+//   NACRE_SHADOW_i     light i's map (i = 0 to 7), a list of four: kind (NACRE_SHADOW_SPOT, ...), texels along the
+//                      filter's edge, bits (16 or 32), cascades
 // C++: ShadowMap (shading/shadow_map.hpp) sets defines and uniforms; shadowLit (core/shadow_view.hpp) is the twin.
 #ifndef NACRE_BIND_SHADOWS_GLSL
 #define NACRE_BIND_SHADOWS_GLSL
@@ -21,12 +19,15 @@ uniform usampler2DArray nacre_shadow_map6;
 uniform usampler2DArray nacre_shadow_map7;
 uniform mat4 nacre_shadow_from_world[8];  // rigid
 uniform vec4 nacre_shadow_range[8];       // depth of 0, that of 1 less that, resolution, the user's bias or -1
-uniform vec4 nacre_shadow_size[8];        // texels along an edge, half of them, scale in texels, its inverse
+uniform vec4 nacre_shadow_size[8];        // texels along an edge, its inverse, scale in texels, its inverse
 uniform vec4 nacre_shadow_cascades[32];   // four a light: texel coordinate = xy of light space * z + xy; w = 1 / z
+
+bool nacre_shadow_within(vec2 at, float edge) { return abs(at.x) <= edge && abs(at.y) <= edge; }
 
 float nacre_shadow_by(usampler2DArray map, int i, int kind, int n, int bits, int cascades, vec3 position, vec3 normal) {
     vec4 range = nacre_shadow_range[i];
     vec4 size = nacre_shadow_size[i];
+    float middle = 0.5 * size.x;
     vec3 q = (nacre_shadow_from_world[i] * vec4(position, 1.0)).xyz;
     vec3 m = -(mat3(nacre_shadow_from_world[i]) * normal);
     int layer = 0;
@@ -42,18 +43,18 @@ float nacre_shadow_by(usampler2DArray map, int i, int kind, int n, int bits, int
     if (kind == NACRE_SHADOW_DIRECTIONAL) cos2 = m.z * m.z;
     if (kind == NACRE_SHADOW_DUAL_PARABOLOID) cos2 = height * height / square;  // q.z may be 0
     vec2 at;
-    vec3 side = vec3(m.xy * size.w, m.z - dot(m.xy, vec2(size.y * size.w)));
+    vec3 side = vec3(m.xy * size.w, m.z - dot(m.xy, vec2(middle * size.w)));
     float texel;
-    float edge = size.y - 0.5 * float(n);
+    float edge = middle - 0.5 * float(n);
     bool inside = true;
     if (kind == NACRE_SHADOW_DIRECTIONAL) {
         vec4 square = nacre_shadow_cascades[4 * i];
         at = q.xy * square.z + square.xy;
-        inside = max(abs(at.x - size.y), abs(at.y - size.y)) <= edge;
+        inside = nacre_shadow_within(at - middle, edge);
         for (int k = 1; k < cascades; ++k) {
             vec4 next = nacre_shadow_cascades[4 * i + k];
             vec2 there = q.xy * next.z + next.xy;
-            bool here = !inside && max(abs(there.x - size.y), abs(there.y - size.y)) <= edge;
+            bool here = !inside && nacre_shadow_within(there - middle, edge);
             square = here ? next : square;
             at = here ? there : at;
             layer = here ? k : layer;
@@ -64,15 +65,15 @@ float nacre_shadow_by(usampler2DArray map, int i, int kind, int n, int bits, int
     } else if (kind == NACRE_SHADOW_DUAL_PARABOLOID) {
         float r = sqrt(square);
         vec2 p = q.xy / (r + q.z);
-        at = p * size.z + size.y;
+        at = p * size.z + middle;
         texel = r * 2.0 * size.w / (1.0 + dot(p, p));
     } else {
-        at = q.xy * (size.z * (inverse * square)) + size.y;
+        at = q.xy * (size.z * (inverse * square)) + middle;
         texel = q.z * size.w;
-        inside = q.z > 0.0 && max(abs(at.x - size.y), abs(at.y - size.y)) <= edge;
+        inside = q.z > 0.0 && nacre_shadow_within(at - middle, edge);
     }
     float bias = range.w >= 0.0 ? range.w : nacre_shadow_bias(n, texel, cos2, range.z);
-    float lit = nacre_shadow_filter(map, layer, kind, n, bits, size.x, range.xy, size.w, at, m, side, height - bias);
+    float lit = nacre_shadow_filter(map, layer, kind, n, bits, size, range.xy, at, m, side, height - bias);
     float facing = kind == NACRE_SHADOW_DIRECTIONAL ? m.z : height;
     return facing > 0.0 ? (inside ? lit : 1.0) : 0.0;
 }
@@ -88,44 +89,28 @@ vec3 nacre_shadow_normal(vec3 position, vec3 to_eye) {
 // Share of light i that other surfaces let through to `position`; 0 behind the surface. normal: nacre_shadow_normal.
 float nacre_shadow_lit(int i, vec3 position, vec3 normal) {
 #ifdef NACRE_SHADOW_0
-    if (i == 0)
-        return nacre_shadow_by(nacre_shadow_map0, 0, NACRE_SHADOW_0, NACRE_SHADOW_N_0, NACRE_SHADOW_B_0, NACRE_SHADOW_C_0,
-                               position, normal);
+    if (i == 0) return nacre_shadow_by(nacre_shadow_map0, 0, NACRE_SHADOW_0, position, normal);
 #endif
 #ifdef NACRE_SHADOW_1
-    if (i == 1)
-        return nacre_shadow_by(nacre_shadow_map1, 1, NACRE_SHADOW_1, NACRE_SHADOW_N_1, NACRE_SHADOW_B_1, NACRE_SHADOW_C_1,
-                               position, normal);
+    if (i == 1) return nacre_shadow_by(nacre_shadow_map1, 1, NACRE_SHADOW_1, position, normal);
 #endif
 #ifdef NACRE_SHADOW_2
-    if (i == 2)
-        return nacre_shadow_by(nacre_shadow_map2, 2, NACRE_SHADOW_2, NACRE_SHADOW_N_2, NACRE_SHADOW_B_2, NACRE_SHADOW_C_2,
-                               position, normal);
+    if (i == 2) return nacre_shadow_by(nacre_shadow_map2, 2, NACRE_SHADOW_2, position, normal);
 #endif
 #ifdef NACRE_SHADOW_3
-    if (i == 3)
-        return nacre_shadow_by(nacre_shadow_map3, 3, NACRE_SHADOW_3, NACRE_SHADOW_N_3, NACRE_SHADOW_B_3, NACRE_SHADOW_C_3,
-                               position, normal);
+    if (i == 3) return nacre_shadow_by(nacre_shadow_map3, 3, NACRE_SHADOW_3, position, normal);
 #endif
 #ifdef NACRE_SHADOW_4
-    if (i == 4)
-        return nacre_shadow_by(nacre_shadow_map4, 4, NACRE_SHADOW_4, NACRE_SHADOW_N_4, NACRE_SHADOW_B_4, NACRE_SHADOW_C_4,
-                               position, normal);
+    if (i == 4) return nacre_shadow_by(nacre_shadow_map4, 4, NACRE_SHADOW_4, position, normal);
 #endif
 #ifdef NACRE_SHADOW_5
-    if (i == 5)
-        return nacre_shadow_by(nacre_shadow_map5, 5, NACRE_SHADOW_5, NACRE_SHADOW_N_5, NACRE_SHADOW_B_5, NACRE_SHADOW_C_5,
-                               position, normal);
+    if (i == 5) return nacre_shadow_by(nacre_shadow_map5, 5, NACRE_SHADOW_5, position, normal);
 #endif
 #ifdef NACRE_SHADOW_6
-    if (i == 6)
-        return nacre_shadow_by(nacre_shadow_map6, 6, NACRE_SHADOW_6, NACRE_SHADOW_N_6, NACRE_SHADOW_B_6, NACRE_SHADOW_C_6,
-                               position, normal);
+    if (i == 6) return nacre_shadow_by(nacre_shadow_map6, 6, NACRE_SHADOW_6, position, normal);
 #endif
 #ifdef NACRE_SHADOW_7
-    if (i == 7)
-        return nacre_shadow_by(nacre_shadow_map7, 7, NACRE_SHADOW_7, NACRE_SHADOW_N_7, NACRE_SHADOW_B_7, NACRE_SHADOW_C_7,
-                               position, normal);
+    if (i == 7) return nacre_shadow_by(nacre_shadow_map7, 7, NACRE_SHADOW_7, position, normal);
 #endif
     return 1.0;
 }

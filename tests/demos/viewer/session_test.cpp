@@ -5,6 +5,9 @@
 
 #include <optional>
 
+#include "bump/bump_asset.hpp"
+#include "bump/normals.hpp"
+#include "core/asset.hpp"
 #include "core/error.hpp"
 #include "core/file.hpp"
 #include "demos/viewer/orbit.hpp"
@@ -78,6 +81,25 @@ TEST_F(Session, AnEditThatFailsChangesNothing) {
     EXPECT_NE(pixels(session), before);
     EXPECT_TRUE(session.setNodeMaterial(0, std::string("lambert:kd=0.5")));  // the scene's own
     EXPECT_EQ(session.scene().materials.size(), 2u);
+    EXPECT_EQ(pixels(session), before);
+}
+
+TEST_F(Session, AReliefIsAddedAndTakenAway) {
+    HeightMap heights{Image(8, 8, 1), Wrap::Repeat};
+    heights.heights.at(3, 4, 0) = 2;
+    BumpMaps maps{8, 8, Wrap::Repeat, {}, {}, {}, {}, {}, {}};
+    maps.normals = makeNormals(heights);
+    writeAsset(toAsset(maps), scratch_ / "spike.exr");
+    ViewerSession session = open();
+    const std::vector<float> before = pixels(session);
+    EXPECT_FALSE(session.setRelief(0, scratch_ / "absent.exr"));
+    EXPECT_THAT(session.problems(), ElementsAre(Pair("relief", HasSubstr("absent.exr"))));
+    EXPECT_EQ(pixels(session), before);
+    EXPECT_TRUE(session.setRelief(0, scratch_ / "spike.exr")) << session.problems().begin()->second;
+    EXPECT_EQ(session.scene().materials[0].relief.value().shadow, BumpShadow::None);  // it holds normals alone
+    EXPECT_NE(pixels(session), before);
+    EXPECT_TRUE(session.setRelief(0, {}));
+    EXPECT_THAT(session.problems(), IsEmpty());
     EXPECT_EQ(pixels(session), before);
 }
 

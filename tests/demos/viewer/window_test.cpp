@@ -178,6 +178,25 @@ TEST_F(ViewerWindow, ShowsABrokenScenesMessageAndTheLastGoodPicture) {
     viewer.until([](const json& line) { return line["problems"].empty() && eyeOf(line) == Vec3(0, 2, 5); });
 }
 
+TEST_F(ViewerWindow, AWindowOfOnePixelAndAHiddenOneComeBack) {
+    const Display display;
+    Viewer viewer(display, words());
+    const json first = viewer.until(settled);
+    const auto before = display.codes(first["window"][0], first["window"][1], kWidth, kHeight);
+    display.send({"search", "--name", "^nacre: ", "windowsize", "1", "1"});
+    viewer.until([](const json& line) { return line["width"] == 1 && line["height"] == 1 && settled(line); });
+    display.send({"search", "--name", "^nacre: ", "windowsize", "200", "150"});
+    const json again = viewer.until(
+        [](const json& line) { return line["width"] == kWidth && line["height"] == kHeight && settled(line); });
+    EXPECT_EQ(display.codes(again["window"][0], again["window"][1], kWidth, kHeight), before);
+    display.send({"search", "--name", "^nacre: ", "windowunmap"});
+    display.send({"search", "--name", "^nacre: ", "windowmap"});
+    display.send({"mousemove", std::to_string(again["window"][0].get<int>() + 100),
+                  std::to_string(again["window"][1].get<int>() + 75), "click", "4"});
+    const json last = viewer.until([&](const json& line) { return eyeOf(line) != eyeOf(first) && settled(line); });
+    EXPECT_TRUE(last["problems"].empty());
+}
+
 TEST_F(ViewerWindow, TracesTheReferenceOfTheView) {
     const Display display;
     std::vector<std::string> more = words();

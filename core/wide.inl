@@ -1,13 +1,14 @@
 // Compiles a file of vector arithmetic for each instruction set, each in a namespace of its own: the compiler lowers a
 // vector for the set that is in force where a function is written. To be included inside an anonymous namespace, with
 // NACRE_KERNEL the file's name; NACRE_WIDEST(f) is then the f of the widest set that this processor has. All give the
-// same bits where fused multiply-add is off (bump/CMakeLists.txt).
+// same bits where fused multiply-add is off (the CMakeLists.txt of the rooms that include it).
 //
 // Each namespace has: Floats (16), Mask, load, larger, smaller, root, any.
 #define NACRE_INLINE inline __attribute__((always_inline))
 
+#define NACRE_SET 1
 namespace plain {
-#include "bump/wide_types.inl"
+#include "core/wide_types.inl"
 inline bool any(const Mask& m) {
     std::int64_t parts[kWide / 2], all = 0;
     std::memcpy(parts, &m, sizeof(m));
@@ -16,12 +17,14 @@ inline bool any(const Mask& m) {
 }
 #include NACRE_KERNEL
 }  // namespace plain
+#undef NACRE_SET
 
 #if defined(__x86_64__)
 #pragma GCC push_options
 #pragma GCC target("avx2")
+#define NACRE_SET 2
 namespace avx2 {
-#include "bump/wide_types.inl"
+#include "core/wide_types.inl"
 NACRE_INLINE bool any(const Mask& m) {
     __m256i halves[2];
     std::memcpy(halves, &m, sizeof(m));
@@ -30,12 +33,14 @@ NACRE_INLINE bool any(const Mask& m) {
 }
 #include NACRE_KERNEL
 }  // namespace avx2
+#undef NACRE_SET
 #pragma GCC pop_options
 
 #pragma GCC push_options
 #pragma GCC target("avx512f,avx512dq,avx512bw,avx512vl,prefer-vector-width=512")
+#define NACRE_SET 512
 namespace avx512 {
-#include "bump/wide_types.inl"
+#include "core/wide_types.inl"
 NACRE_INLINE bool any(const Mask& m) {
     __m512i bits;
     std::memcpy(&bits, &m, sizeof(m));
@@ -43,6 +48,7 @@ NACRE_INLINE bool any(const Mask& m) {
 }
 #include NACRE_KERNEL
 }  // namespace avx512
+#undef NACRE_SET
 #pragma GCC pop_options
 
 inline bool hasAvx512() {

@@ -1,4 +1,4 @@
-// Vectors that any processor has (bump/wide.inl).
+// Vectors that any processor has (wide.inl).
 constexpr int kWide = 16;
 typedef float Floats __attribute__((vector_size(4 * kWide)));
 typedef std::int32_t Mask __attribute__((vector_size(4 * kWide)));

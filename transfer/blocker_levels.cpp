@@ -1,0 +1,185 @@
+#include "transfer/blocker_levels.hpp"
+
+#include <meshoptimizer.h>
+
+#include <algorithm>
+#include <limits>
+
+#include "core/parallel.hpp"
+
+namespace nacre {
+namespace {
+
+/// Edge collapses (Garland & Heckbert 1997, by meshoptimizer) until `count` triangles are left, or no more can go.
+std::vector<glm::uvec3> simplified(std::span<const glm::uvec3> triangles, std::span<const glm::vec3> positions, std::size_t count) {
+    std::vector<unsigned> indices(3 * triangles.size());
+    const std::size_t left = meshopt_simplify(indices.data(), &triangles[0].x, 3 * triangles.size(), &positions[0].x,
+                                              positions.size(), sizeof(glm::vec3), 3 * count, 1e10f, 0, nullptr);
+    std::vector<glm::uvec3> out;
+    for (std::size_t i = 0; i + 2 < left; i += 3) out.emplace_back(indices[i], indices[i + 1], indices[i + 2]);
+    return out;
+}
+
+struct NearPoint {
+    double distanceSquared = 0;
+    glm::dvec3 weights{0};  ///< barycentric
+};
+
+/// The point of triangle abc nearest to p: by the regions of its corners and edges (Ericson 2004, section 5.1.5).
+NearPoint nearestOn(const glm::dvec3& p, const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c) {
+    const glm::dvec3 ab = b - a, ac = c - a, ap = p - a;
+    const auto at = [&](double v, double w) {
+        const glm::dvec3 d = ap - v * ab - w * ac;
+        return NearPoint{glm::dot(d, d), {1 - v - w, v, w}};
+    };
+    const double d1 = glm::dot(ab, ap), d2 = glm::dot(ac, ap);
+    if (d1 <= 0 && d2 <= 0) return at(0, 0);
+    const glm::dvec3 bp = p - b, cp = p - c;
+    const double d3 = glm::dot(ab, bp), d4 = glm::dot(ac, bp), d5 = glm::dot(ab, cp), d6 = glm::dot(ac, cp);
+    if (d3 >= 0 && d4 <= d3) return at(1, 0);
+    const double vc = d1 * d4 - d3 * d2;
+    if (vc <= 0 && d1 >= 0 && d3 <= 0) return at(d1 / (d1 - d3), 0);
+    if (d6 >= 0 && d5 <= d6) return at(0, 1);
+    const double vb = d5 * d2 - d1 * d6;
+    if (vb <= 0 && d2 >= 0 && d6 <= 0) return at(0, d2 / (d2 - d6));
+    const double va = d3 * d6 - d5 * d4;
+    if (va <= 0 && d4 - d3 >= 0 && d5 - d6 >= 0) {
+        const double w = (d4 - d3) / ((d4 - d3) + (d5 - d6));
+        return at(1 - w, w);
+    }
+    const double sum = va + vb + vc;
+    return sum > 0 ? at(vb / sum, vc / sum) : at(0, 0);
+}
+
+/// For each vertex the level's triangle nearest to it among those that face its way, else the nearest of all.
+struct Standing {
+    std::vector<std::uint32_t> triangle;
+    std::vector<glm::dvec3> weights;
+};
+Standing standing(const std::vector<glm::uvec3>& triangles, std::span<const glm::vec3> rest, std::span<const glm::vec3> normals) {
+    struct Ball {
+        glm::dvec3 centre, normal;
+        double radius;
+    };
+    std::vector<Ball> balls;
+    for (const glm::uvec3& t : triangles) {
+        const glm::dvec3 a = rest[t.x], b = rest[t.y], c = rest[t.z], centre = (a + b + c) / 3.0;
+        const double radius = std::max({glm::distance(a, centre), glm::distance(b, centre), glm::distance(c, centre)});
+        balls.push_back({centre, glm::cross(b - a, c - a), radius});
+    }
+    Standing out{std::vector<std::uint32_t>(rest.size()), std::vector<glm::dvec3>(rest.size())};
+    parallelFor(rest.size(), 0, [&](std::size_t v) {
+        const glm::dvec3 p = rest[v], n = normals[v];
+        double best[2] = {std::numeric_limits<double>::max(), std::numeric_limits<double>::max()};
+        std::uint32_t triangle[2] = {0, 0};
+        glm::dvec3 weights[2] = {glm::dvec3(1, 0, 0), glm::dvec3(1, 0, 0)};
+        for (std::uint32_t t = 0; t < triangles.size(); ++t) {
+            const int other = glm::dot(balls[t].normal, n) > 0 ? 0 : 1;
+            const double away = glm::distance(p, balls[t].centre) - balls[t].radius;
+            if (away > 0 && away * away >= best[other]) continue;
+            const glm::uvec3& i = triangles[t];
+            const NearPoint near = nearestOn(p, rest[i.x], rest[i.y], rest[i.z]);
+            if (near.distanceSquared >= best[other]) continue;
+            best[other] = near.distanceSquared;
+            triangle[other] = t;
+            weights[other] = near.weights;
+        }
+        const int chosen = best[0] < std::numeric_limits<double>::max() ? 0 : 1;
+        out.triangle[v] = triangle[chosen];
+        out.weights[v] = weights[chosen];
+    });
+    return out;
+}
+
+/// Least squares by relaxation: Σ_i w_i push_i is the height over the level's triangle, for each vertex of the mesh.
+std::vector<float> fittedPush(const std::vector<glm::uvec3>& triangles, const Standing& stands, std::span<const glm::vec3> rest) {
+    std::vector<double> push(rest.size(), 0), sum(rest.size()), weight(rest.size());
+    constexpr int kRounds = 12;
+    for (int round = 0; round < kRounds; ++round) {
+        std::fill(sum.begin(), sum.end(), 0.0);
+        std::fill(weight.begin(), weight.end(), 0.0);
+        for (std::size_t v = 0; v < rest.size(); ++v) {
+            const glm::uvec3& t = triangles[stands.triangle[v]];
+            const glm::dvec3 a = rest[t.x], cross = glm::cross(glm::dvec3(rest[t.y]) - a, glm::dvec3(rest[t.z]) - a);
+            const double length = glm::length(cross);
+            if (!(length > 0)) continue;
+            double missing = glm::dot(glm::dvec3(rest[v]) - a, cross) / length;
+            for (int c = 0; c < 3; ++c) missing -= stands.weights[v][c] * push[t[c]];
+            for (int c = 0; c < 3; ++c) {
+                sum[t[c]] += stands.weights[v][c] * missing;
+                weight[t[c]] += stands.weights[v][c];
+            }
+        }
+        for (std::size_t v = 0; v < rest.size(); ++v)
+            if (weight[v] > 0) push[v] += sum[v] / weight[v];
+    }
+    const float extent = extentOf(rest);
+    std::vector<float> out(rest.size());
+    for (std::size_t v = 0; v < rest.size(); ++v) out[v] = extent > 0 ? static_cast<float>(push[v] / extent) : 0.0f;
+    return out;
+}
+
+BlockerLevels::Level levelOf(std::vector<glm::uvec3> triangles, std::span<const glm::vec3> rest, std::span<const glm::vec3> normals) {
+    const Standing stands = standing(triangles, rest, normals);
+    std::vector<float> push = fittedPush(triangles, stands, rest);
+    return {std::move(triangles), std::move(push), stands.triangle};
+}
+
+}  // namespace
+
+float extentOf(std::span<const glm::vec3> positions) {
+    if (positions.empty()) return 0;
+    glm::vec3 low = positions[0], high = low;
+    for (const glm::vec3& p : positions) {
+        low = glm::min(low, p);
+        high = glm::max(high, p);
+    }
+    return std::max({high.x - low.x, high.y - low.y, high.z - low.z});
+}
+
+BlockerLevels makeBlockerLevels(const WeldedMesh& mesh, std::span<const glm::vec3> rest, const BlockerLevelOptions& options) {
+    BlockerLevels out;
+    const std::size_t fine = mesh.triangles.size();
+    out.levels.push_back({mesh.triangles, std::vector<float>(rest.size(), 0), {}});
+    const std::vector<glm::vec3> normals = vertexNormals(mesh.triangles, cornersOfVertices(mesh.triangles, rest.size()), rest);
+    if (options.coarse > 0 && options.coarse < fine) {
+        std::vector<std::size_t> counts;
+        if (fine > options.coarse * options.least * options.least)
+            counts.push_back(static_cast<std::size_t>(std::sqrt(static_cast<double>(fine) * static_cast<double>(options.coarse))));
+        counts.push_back(options.coarse);
+        for (const std::size_t count : counts) {
+            std::vector<glm::uvec3> triangles = simplified(mesh.triangles, rest, count);
+            if (!triangles.empty() && triangles.size() < out.levels.back().triangles.size())
+                out.levels.push_back(levelOf(std::move(triangles), rest, normals));
+        }
+    }
+    const BlockerLevels::Level& coarsest = out.levels.back();
+    out.patches.resize(coarsest.triangles.size());
+    for (std::uint32_t p = 0; p < out.patches.size(); ++p) {
+        out.patches[p].triangles.resize(out.levels.size());
+        out.patches[p].triangles.back() = {p};
+    }
+    if (out.levels.size() == 1) {  // each triangle for itself
+        for (std::size_t p = 0; p < out.patches.size(); ++p)
+            for (int c = 0; c < 3; ++c) out.patches[p].vertices.push_back(coarsest.triangles[p][c]);
+        return out;
+    }
+    for (std::uint32_t v = 0; v < rest.size(); ++v) out.patches[coarsest.triangleOf[v]].vertices.push_back(v);
+    for (std::size_t level = 0; level + 1 < out.levels.size(); ++level)
+        for (std::uint32_t t = 0; t < out.levels[level].triangles.size(); ++t) {
+            std::uint32_t patch[3];
+            for (int c = 0; c < 3; ++c) patch[c] = coarsest.triangleOf[out.levels[level].triangles[t][c]];
+            for (int c = 0; c < 3; ++c)
+                if (std::find(patch, patch + c, patch[c]) == patch + c) out.patches[patch[c]].triangles[level].push_back(t);
+        }
+    return out;
+}
+
+std::vector<glm::vec3> pushedPositions(const BlockerLevels::Level& level, const CornersOfVertices& corners,
+                                       std::span<const glm::vec3> positions, float extent) {
+    std::vector<glm::vec3> out = vertexNormals(level.triangles, corners, positions);
+    for (std::size_t v = 0; v < out.size(); ++v) out[v] = positions[v] + level.push[v] * extent * out[v];
+    return out;
+}
+
+}  // namespace nacre

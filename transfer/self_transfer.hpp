@@ -1,0 +1,65 @@
+// Soft self-shadows of a moving mesh: for each vertex and frame the light transfer, without precomputation (HEMI).
+#pragma once
+
+#include <memory>
+
+#include "transfer/blocker_levels.hpp"
+#include "transfer/harmonic_rotation.hpp"
+
+namespace nacre {
+
+/// Which sides of a triangle block. On closed meshes the sides that face the vertex are all that can be seen first.
+enum class BlockingSides { Auto, Front, Both };
+
+struct SelfTransferOptions {
+    int mask = 32;                 ///< N of N × N bits: 16, 32, 64, 128
+    int order = 4;                 ///< highest band of harmonics, 0 to 6: (order + 1)² coefficients
+    int rings = 1;                 ///< within so many rings of triangles about a vertex the mesh itself blocks: 1 or 2
+    std::size_t coarse = 400;      ///< triangles of the coarsest level; 0 = the mesh itself everywhere
+    double lodAngle = 0.02;        ///< [rad] a level is used where it is off by less, seen from the vertex
+    BlockingSides sides = BlockingSides::Auto;
+    VectorSet vectors = VectorSet::Widest;
+    unsigned threads = 0;
+};
+
+/// Seconds of all threads together. Transform: positions, levels, lists and what culls them (HEMI table 2).
+struct TransferSeconds {
+    double rasterization = 0, integration = 0, transform = 0, other = 0;
+};
+
+struct TransferFrame {
+    std::vector<float> coefficients;  ///< [vertex][(order + 1)²], world's axes, index l² + l + m; see SelfTransfer
+    std::vector<glm::vec3> normals;   ///< unit; 0 where a vertex has none
+    double listed = 0, drawn = 0;     ///< blockers a computed vertex, before and after culling
+    std::size_t computed = 0;         ///< vertices
+    TransferSeconds seconds;
+};
+
+/// Transfer vectors of a mesh whose topology stays: V_i = ∫ y_i(s) V(s) max(0, n·s)/π ds, HEMI equation 3 with the
+/// diffuse f = 1/π (radiance = albedo Σ L_i V_i for radiance coefficients L_i). What is integrated is the share hidden,
+/// taken from the transfer of an open hemisphere, which is known exactly.
+///
+/// The three triangles' worth of surface around a vertex hide what lies below them: they are drawn as skirts, down to the
+/// direction −n. Further blockers come from the level of detail that is close enough.
+class SelfTransfer {
+public:
+    /// \param rest  positions of a frame by which levels of detail and groups of vertices are made; finite
+    /// \throws std::invalid_argument for options out of range
+    SelfTransfer(WeldedMesh mesh, std::span<const glm::vec3> rest, const SelfTransferOptions& options);
+    ~SelfTransfer();
+    SelfTransfer(SelfTransfer&&) noexcept;
+
+    /// \param positions  of the welded vertices \param wanted  one a vertex, 0 = leave out; empty = all
+    /// \throws std::invalid_argument when one isn't finite
+    TransferFrame compute(std::span<const glm::vec3> positions, std::span<const std::uint8_t> wanted = {}) const;
+
+    const WeldedMesh& mesh() const;
+    const SelfTransferOptions& options() const;  ///< sides resolved
+    std::size_t coarseTriangles() const;
+
+private:
+    struct State;
+    std::unique_ptr<State> state_;
+};
+
+}  // namespace nacre
