@@ -68,7 +68,13 @@ static void addOption(CLI::App& app, const Option& option) {
             option.flags, [take] { take("true"); }, option.summary);
         return;
     }
-    CLI::Option* added = app.add_option_function<std::string>(option.flags, take, option.summary);
+    const auto takeAll = [take](const std::vector<std::string>& texts) {
+        for (const std::string& text : texts) take(text);
+    };
+    CLI::Option* added = option.repeats
+                             ? app.add_option_function<std::vector<std::string>>(option.flags, takeAll, option.summary)
+                                   ->allow_extra_args(false)
+                             : app.add_option_function<std::string>(option.flags, take, option.summary);
     added->type_name(option.value)->required(option.required);
     if (!option.choices.empty()) added->check(CLI::IsMember(option.choices))->type_name(option.value);
 }
@@ -95,9 +101,9 @@ static void requireKnownVerb(const std::vector<Verb>& verbs, int argc, const cha
 }
 
 static std::vector<Verb> makeVerbs(Context& context) {
-    return {factorizeVerb(context), envmapVerb(context), bumpVerb(context),   fresnelVerb(context),
-            shVerb(context),        bakeVerb(context),   infoVerb(context),   evalVerb(context),
-            renderVerb(context),    viewVerb(context),   modelsVerb(context), methodsVerb(context)};
+    return {factorizeVerb(context), envmapVerb(context), bumpVerb(context),   fresnelVerb(context), shVerb(context),
+            transferVerb(context),  bakeVerb(context),   infoVerb(context),   evalVerb(context),    renderVerb(context),
+            viewVerb(context),      modelsVerb(context), methodsVerb(context)};
 }
 
 static int parseAndRun(int argc, const char* const* argv) {

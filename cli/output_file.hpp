@@ -12,10 +12,11 @@ namespace nacre::cli {
 std::filesystem::path provisionalName(const std::string& output);
 
 /// Fails before the bake when nothing can be written there.
-/// \throws std::invalid_argument when output is empty or the source itself, UsageError when its name doesn't end in
-/// .exr;
+/// \param ending  that the name must have; empty: any
+/// \throws std::invalid_argument when output is empty or the source itself, UsageError when its name ends otherwise;
 ///         nacre::Error when it can't be written
-void requireWritable(const std::string& source, const std::string& output, const std::filesystem::path& provisional);
+void requireWritable(const std::string& source, const std::string& output, const std::filesystem::path& provisional,
+                     const std::string& ending = ".exr");
 
 class Stopwatch {
 public:

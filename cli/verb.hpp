@@ -21,6 +21,7 @@ struct Option {
     std::function<void(const std::string&)> take;  ///< stores the value ("true" for a flag); throws UsageError
     bool required = false;
     std::vector<std::string> choices{};  ///< the only values accepted, when not empty
+    bool repeats = false;                ///< may be given several times; taken each time
 };
 
 struct Verb {
@@ -45,6 +46,7 @@ Verb evalVerb(Context& context);
 Verb fresnelVerb(Context& context);
 Verb bumpVerb(Context& context);
 Verb shVerb(Context& context);
+Verb transferVerb(Context& context);
 Verb bakeVerb(Context& context);
 Verb renderVerb(Context& context);
 Verb viewVerb(Context& context);

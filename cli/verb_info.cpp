@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <memory>
+#include <set>
 
 #include "bump/bump_asset.hpp"
 #include "cli/eval_table.hpp"
@@ -13,6 +14,7 @@
 #include "envmaps/env_asset.hpp"
 #include "factorize/factored_brdf.hpp"
 #include "shading/scene_file.hpp"
+#include "transfer/transfer_file.hpp"
 
 namespace nacre::cli {
 
@@ -30,12 +32,11 @@ static std::string textureText(const AssetTexture& t) {
     return out + "\n";
 }
 
-static std::string infoText(const std::string& path, const Asset& asset) {
-    std::string out =
-        fmt::format("{}: {}, {} in {} textures\n", path, asset.kind, humanBytes(asset.bytes()), asset.textures.size());
-    for (const AssetTexture& texture : asset.textures) out += textureText(texture);
-    for (const auto& [key, value] : asset.meta.items()) {
-        if (key == "textures" || key == "kind" || key == "bytes" || key == "params") continue;
+/// All but what the line above it has said.
+static std::string metaText(const json& meta, const std::set<std::string>& said) {
+    std::string out;
+    for (const auto& [key, value] : meta.items()) {
+        if (said.count(key)) continue;
         if (value.is_array() && !value.empty() && value.front().is_object()) {  // one line an entry
             out += key + "\n";
             for (const json& entry : value) out += "  " + entry.dump() + "\n";
@@ -49,6 +50,13 @@ static std::string infoText(const std::string& path, const Asset& asset) {
         for (const auto& [name, inner] : value.items()) out += fmt::format("  {:<20} {}\n", name, valueText(inner));
     }
     return out;
+}
+
+static std::string infoText(const std::string& path, const Asset& asset) {
+    std::string out =
+        fmt::format("{}: {}, {} in {} textures\n", path, asset.kind, humanBytes(asset.bytes()), asset.textures.size());
+    for (const AssetTexture& texture : asset.textures) out += textureText(texture);
+    return out + metaText(asset.meta, {"textures", "kind", "bytes", "params"});
 }
 
 /// Says when this version can show the file but not use it: a later version's kind or form, or a damaged description.
@@ -77,6 +85,16 @@ static void showAsset(const std::string& file, bool asJson) {
     tellUnusable(file, asset);
 }
 
+static void showTransfer(const std::string& file, bool asJson) {
+    const TransferRecording r = readTransfer(file);
+    if (asJson) return putData(r.meta.dump(2) + "\n");
+    const std::string text =
+        fmt::format("{}: transfer, {} coefficients for {} vertices, {} triangles, in {} frames ({} to {})\n", file,
+                    r.coefficientCount(), r.vertexCount(), r.triangles.size(), r.frames.size(), r.frames.front().number,
+                    r.frames.back().number);
+    putData(text + metaText(r.meta, {"kind", "vertices", "triangles", "frames", "block_of_frame"}));
+}
+
 static void showScene(const std::string& file, bool asJson) {
     std::vector<std::string> notes;
     SceneOptions options;
@@ -92,14 +110,17 @@ Verb infoVerb(Context&) {
         bool asJson = false;
     };
     const auto s = std::make_shared<Settings>();
-    Verb verb{"info", "Show what an asset says of itself, or what is in a scene", {}, {}, {}};
+    Verb verb{"info", "Show what an asset or a transfer file says of itself, or what is in a scene", {}, {}, {}};
     verb.details =
         "Of an asset: textures, source, measured error. Of a scene file, glTF or mesh: triangles, materials with what "
         "they\n"
         "use, lights, and assets: baked (up to date), stale, missing, or given (there, with no recipe to check it by).";
-    verb.options = {{"file", "FILE", "A baked asset, a scene or a mesh", into(s->file), true},
+    verb.options = {{"file", "FILE", "A baked asset, a transfer file, a scene or a mesh", into(s->file), true},
                     {"--json", "", "One JSON object on standard output", into(s->asJson)}};
-    verb.run = [s] { isSceneName(s->file) ? showScene(s->file, s->asJson) : showAsset(s->file, s->asJson); };
+    verb.run = [s] {
+        const auto show = isSceneName(s->file) ? showScene : isTransferFile(s->file) ? showTransfer : showAsset;
+        show(s->file, s->asJson);
+    };
     return verb;
 }
 

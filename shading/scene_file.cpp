@@ -6,6 +6,7 @@
 #include <map>
 #include <set>
 
+#include "shading/mesh_attributes.hpp"
 #include "shading/scene_bounds.hpp"
 #include "shading/scene_import.hpp"
 #include "shading/scene_manifest.hpp"
@@ -178,8 +179,7 @@ private:
         const SceneMaterial& material = out_.scene.materials[static_cast<std::size_t>(node.material)];
         if (!material.relief) return;
         const SceneMesh& mesh = out_.scene.meshes[static_cast<std::size_t>(node.mesh)];
-        const std::vector<glm::vec2>& uvs = mesh.mesh.uvs;
-        if (std::all_of(uvs.begin(), uvs.end(), [&](const glm::vec2& uv) { return uv == uvs.front(); }))
+        if (!hasUv(mesh.mesh))
             field.fail(fmt::format("expected a mesh with uv for the relief of \"{}\", found none in \"{}\"",
                                    material.name, mesh.name));
         const auto& meshes = root_.find("meshes");

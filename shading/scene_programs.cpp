@@ -11,6 +11,7 @@
 #include "factorize/models/models.hpp"
 #include "shading/environment_pass.hpp"
 #include "shading/gpu_direct_brdf.hpp"
+#include "shading/mesh_attributes.hpp"
 #include "shading/pass_state.hpp"
 #include "shading/shadow_map.hpp"
 
@@ -123,6 +124,16 @@ std::string called(const char* what, const std::string& name, std::size_t index)
     return name.empty() ? fmt::format("{} {}", what, index) : fmt::format("{} '{}'", what, name);
 }
 
+/// A relief lies in the mesh's uv.
+void checkUv(const SceneDescription& scene, const SceneNode& node, const std::string& where) {
+    if (node.mesh < 0) return;
+    const SceneMaterial& material = scene.materials[static_cast<std::size_t>(node.material)];
+    const SceneMesh& mesh = scene.meshes[static_cast<std::size_t>(node.mesh)];
+    if (material.relief && !mesh.mesh.triangles.empty() && !hasUv(mesh.mesh))
+        throw Error(fmt::format("{}: expected a mesh with uv for the relief of '{}', found none in '{}'", where,
+                                material.name, mesh.name));
+}
+
 EnvironmentWeight weightOf(const SceneSurrounding& s, const std::vector<AssetTraits>& assets) {
     if (s.table < 0) return EnvironmentWeight::One;
     if (at(assets, s.table).kind == "fresnel") return EnvironmentWeight::Fresnel;
@@ -189,8 +200,9 @@ AssetTraits traitsOf(const Asset& asset, const std::string& name) {
 
 void checkScene(const SceneDescription& scene, const std::vector<AssetTraits>& assets) {
     require(assets.size() == scene.assets.size(), "checkScene: expected the traits of each asset");
-    require(scene.lights.size() <= static_cast<std::size_t>(kMaxLights),
-            fmt::format("scene: expected at most {} lights, found {}", kMaxLights, scene.lights.size()));
+    if (scene.lights.size() > static_cast<std::size_t>(kMaxLights))
+        throw Error(fmt::format("{}: expected at most {} lights, found {}",
+                                scene.file.empty() ? "scene" : scene.file.string(), kMaxLights, scene.lights.size()));
     for (std::size_t i = 0; i < scene.materials.size(); ++i)
         MaterialCheck(scene, assets, called("material", scene.materials[i].name, i))(scene.materials[i]);
     for (std::size_t i = 0; i < scene.nodes.size(); ++i) {
@@ -201,6 +213,7 @@ void checkScene(const SceneDescription& scene, const std::vector<AssetTraits>& a
         check.index(node.material, scene.materials.size(), "material");
         require((node.mesh < 0) == (node.material < 0),
                 called("node", node.name, i) + ": expected mesh and material, or neither");
+        checkUv(scene, node, called("node", node.name, i));
     }
     for (std::size_t i = 0; i < scene.lights.size(); ++i)
         MaterialCheck(scene, assets, called("light", scene.lights[i].name, i))

@@ -45,8 +45,9 @@ struct AssetTraits {
 /// \param name  what messages call the file. \throws nacre::Error when the asset is broken or of an unknown kind
 AssetTraits traitsOf(const Asset& asset, const std::string& name);
 
-/// Checks what the scene's indices point to: they exist, and are assets of the kind that their member needs.
-/// \throws std::invalid_argument for an index that is out of range; nacre::Error "material 'wall': relief: expected an
+/// Checks what the scene's indices point to: they exist, and are assets of the kind that their member needs. Meshes
+/// with a relief have uv. \throws std::invalid_argument for an index that is out of range; nacre::Error "material
+/// 'wall': relief: expected an
 ///         asset of kind bump, found 'marble' of kind brdf"
 void checkScene(const SceneDescription& scene, const std::vector<AssetTraits>& assets);
 

@@ -96,7 +96,7 @@ struct SelfTransfer::State {
     std::size_t listBlockers(const BlockersNow& blockersNow, const GroupBounds& bounds, std::size_t group, Scratch& scratch) const;
     void makeSkirts(std::uint32_t vertex, const Receiver& receiver, std::span<const glm::vec3> positions, Scratch& scratch) const;
     GroupResult computeGroup(std::size_t group, std::span<const std::uint32_t> vertices, const BlockersNow& now,
-                             std::span<const glm::vec3> positions, TransferFrame& frame) const;
+                             std::span<const glm::vec3> positions, const MaskUse& use, TransferFrame& frame) const;
 };
 
 SelfTransfer::State::State(WeldedMesh m, std::span<const glm::vec3> rest, const SelfTransferOptions& o)
@@ -243,7 +243,7 @@ void SelfTransfer::State::makeSkirts(std::uint32_t vertex, const Receiver& recei
 }
 
 GroupResult SelfTransfer::State::computeGroup(std::size_t group, std::span<const std::uint32_t> vertices, const BlockersNow& blockersNow,
-                                              std::span<const glm::vec3> positions, TransferFrame& frame) const {
+                                              std::span<const glm::vec3> positions, const MaskUse& use, TransferFrame& frame) const {
     static thread_local Scratch scratch;
     GroupResult result;
     // Asking for the time costs as much as a vertex: every eighth group stands for the others.
@@ -273,6 +273,9 @@ GroupResult SelfTransfer::State::computeGroup(std::size_t group, std::span<const
                     scratch.skirts.size(), &scratch.masks[words * i]);
         result.drawn += scratch.skirts.size();
     }
+    if (use)
+        for (std::size_t i = 0; i < vertices.size(); ++i)
+            use(vertices[i], scratch.receivers[i], std::span(scratch.masks).subspan(words * i, words));
     const double drawn = now();
     const std::size_t size = static_cast<std::size_t>((options.order + 1) * (options.order + 1));
     scratch.local.assign(size * kLanes, 0);
@@ -309,7 +312,7 @@ const WeldedMesh& SelfTransfer::mesh() const { return state_->mesh; }
 const SelfTransferOptions& SelfTransfer::options() const { return state_->options; }
 std::size_t SelfTransfer::coarseTriangles() const { return state_->levels.levels.back().triangles.size(); }
 
-TransferFrame SelfTransfer::compute(std::span<const glm::vec3> given, std::span<const std::uint8_t> wanted) const {
+TransferFrame SelfTransfer::compute(std::span<const glm::vec3> given, std::span<const std::uint8_t> wanted, const MaskUse& use) const {
     const State& s = *state_;
     require(given.size() == s.mesh.vertexCount(), "transfer: expected a position a vertex");
     require(wanted.empty() || wanted.size() == given.size(), "transfer: expected one mark a vertex");
@@ -330,7 +333,7 @@ TransferFrame SelfTransfer::compute(std::span<const glm::vec3> given, std::span<
         for (const std::uint32_t v : s.groups[g])
             if ((wanted.empty() || wanted[v]) && frame.normals[v] != glm::vec3(0)) chosen[g].push_back(v);
     parallelFor(s.groups.size(), s.options.threads, [&](std::size_t g) {
-        if (!chosen[g].empty()) results[g] = s.computeGroup(g, chosen[g], blockersNow, positions, frame);
+        if (!chosen[g].empty()) results[g] = s.computeGroup(g, chosen[g], blockersNow, positions, use, frame);
     });
     frame.seconds.transform = prepared - start;
     TransferSeconds timed;

@@ -42,6 +42,7 @@ TEST(CommandUsage, HelpOfEveryVerbGoesToStandardOutput) {
                                                   {"factorize", "--help"},
                                                   {"envmap", "--help"},
                                                   {"bump", "--help"},
+                                                  {"transfer", "--help"},
                                                   {"bake", "--help"},
                                                   {"info", "--help"},
                                                   {"eval", "--help"},
@@ -59,9 +60,9 @@ TEST(CommandUsage, HelpOfEveryVerbGoesToStandardOutput) {
 
 TEST(CommandUsage, WrongUsageIsExitTwo) {
     const Scratch scratch;
-    expectFailure(
-        nacre({}), 2,
-        {"expected a verb", "factorize, envmap, bump, fresnel, sh, bake, info, eval, render, view, models, methods"});
+    expectFailure(nacre({}), 2,
+                  {"expected a verb",
+                   "factorize, envmap, bump, fresnel, sh, transfer, bake, info, eval, render, view, models, methods"});
     expectFailure(nacre({"frobnicate"}), 2, {"'frobnicate'", "factorize"});
     expectFailure(nacre({"factorize", "lambert"}), 2, {"--output is required"});
     expectFailure(nacre({"info"}), 2, {"file"});

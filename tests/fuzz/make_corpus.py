@@ -125,6 +125,21 @@ for kind, bits, data in [("float", 32, struct.pack("<2f", 1, -2)), ("signed fixe
     write(f"volume/{bits}.inr", header.encode().ljust(252, b"\n") + b"##}\n" + data)
 
 
+def transfer(header, weld, triangles, blocks):
+    text = json.dumps(header).encode()
+    return (b"NACRE_TV" + struct.pack("<2I", 1, len(text)) + text + struct.pack(f"<{len(weld)}I", *weld) +
+            struct.pack(f"<{len(triangles)}I", *triangles) + b"".join(struct.pack(f"<{len(b)}f", *b) for b in blocks))
+
+
+header = {"kind": "transfer", "version": 1, "order": 1, "frames_per_second": 30, "vertices": 3, "source_vertices": 4,
+          "triangles": 1, "blocks": 2, "frames": [0, 1, 3], "block_of_frame": [0, 0, 1]}
+blocks = [[i / 8 - b for i in range(3 * (3 + 4))] for b in range(2)]
+write("transfer/three.tv", transfer(header, [0, 1, 2, 0], [0, 1, 2], blocks))
+write("transfer/cut.tv", transfer(header, [0, 1, 2, 0], [0, 1, 2], blocks)[:-30])
+write("transfer/huge.tv", transfer({**header, "vertices": 2**31 - 1, "blocks": 2**31 - 1}, [], [], []))
+write("transfer/empty.tv", transfer({**header, "vertices": 0, "source_vertices": 0, "triangles": 0}, [], [], []))
+
+
 def glb(document, rest=b""):
     text = json.dumps(document).encode()
     text += b" " * (-len(text) % 4)

@@ -30,6 +30,8 @@
 #include "shading/md2_frames.hpp"
 #include "shading/scene_file.hpp"
 #include "shading/volume_file.hpp"
+#include "transfer/exitant_radiance.hpp"
+#include "transfer/transfer_file.hpp"
 
 namespace nacre::tests {
 
@@ -94,6 +96,17 @@ static void readVolumeBytes(std::span<const std::uint8_t> bytes) {
         if (!std::isfinite(v)) throw std::logic_error("a volume's value that isn't finite");
 }
 
+static void readTransferBytes(std::span<const std::uint8_t> bytes) {
+    const TransferRecording r = parseTransfer(bytes, "input");
+    const LightCoefficients light(r.coefficientCount(), Rgb(1));
+    for (const TransferRecording::Frame& frame : r.frames) {
+        const TransferRecording::Block& block = r.blocks.at(static_cast<std::size_t>(frame.block));
+        if (exitantRadiance(block.coefficients, light).size() != block.positions.size())
+            throw std::logic_error("a vertex without a colour");
+    }
+    for (const std::uint32_t v : r.weldOf) r.blocks.at(0).positions.at(v);
+}
+
 /// Scene files whose meshes are made by formula: the files that they name are not there.
 static void readSceneText(std::span<const std::uint8_t> bytes) {
     SceneOptions options;
@@ -156,6 +169,7 @@ const std::vector<FuzzTarget>& fuzzTargets() {
                                                     {"tiff", readTiffBytes},
                                                     {"png", readPngBytes},
                                                     {"volume", readVolumeBytes},
+                                                    {"transfer", readTransferBytes},
                                                     {"scene", readSceneText},
                                                     {"gltf", readGltfBytes},
                                                     {"iqm", readIqmBytes},

@@ -1,0 +1,115 @@
+#include "cli/transfer_run.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "cli/output_file.hpp"
+#include "core/error.hpp"
+
+namespace nacre::cli {
+
+static bool allFinite(const std::vector<glm::vec3>& positions) {
+    return std::all_of(positions.begin(), positions.end(), [](const glm::vec3& p) {
+        return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z);
+    });
+}
+
+static void add(TransferRun& run, const TransferFrame& frame, double wallSeconds, double cpuSeconds) {
+    const TransferSeconds& s = frame.seconds;
+    run.wallSeconds += wallSeconds;
+    run.seconds.rasterization += s.rasterization;
+    run.seconds.integration += s.integration;
+    run.seconds.transform += s.transform;
+    run.seconds.other += std::max(0.0, cpuSeconds - s.rasterization - s.integration - s.transform);
+    run.computed += frame.computed;
+    run.listed += frame.listed * static_cast<double>(frame.computed);  // sums until all frames are done
+    run.drawn += frame.drawn * static_cast<double>(frame.computed);
+    const auto without = std::count(frame.normals.begin(), frame.normals.end(), glm::vec3(0));
+    run.withoutNormal = std::max(run.withoutNormal, static_cast<std::size_t>(without));
+}
+
+TransferRun runTransfer(const AnimatedMesh& animation, int first, int end, const SelfTransferOptions& options,
+                        const std::string& name, const Progress& progress) {
+    TransferRun run;
+    TransferRecording& out = run.recording;
+    const auto frameAt = [&](int f) -> const std::vector<glm::vec3>& {
+        return animation.frames[static_cast<std::size_t>(f)];
+    };
+    int rest = first;
+    while (rest < end && !allFinite(frameAt(rest))) ++rest;
+    if (rest == end)
+        throw Error(fmt::format("{}: expected finite positions, found none in frames {} to {}", name, first, end - 1));
+    WeldedMesh mesh = weldMesh(animation, name);
+    out.order = options.order;
+    out.framesPerSecond = animation.framesPerSecond;
+    out.weldOf = mesh.weldOf;
+    out.triangles = mesh.triangles;
+    const std::vector<glm::vec3> restPositions = weldedPositions(mesh, frameAt(rest));
+    const SelfTransfer transfer(std::move(mesh), restPositions, options);
+    run.coarseTriangles = transfer.coarseTriangles();
+    run.closed = transfer.mesh().closed;
+    run.sides = transfer.options().sides;
+    transfer.compute(restPositions);
+    for (int f = first; f < end; ++f) {
+        report(progress, "frames", static_cast<double>(f - first) / (end - first));
+        if (!allFinite(frameAt(f))) {
+            run.refused.push_back(f);
+            continue;
+        }
+        std::vector<glm::vec3> positions = weldedPositions(transfer.mesh(), frameAt(f));
+        if (!out.blocks.empty() && positions == out.blocks.back().positions) {
+            ++run.reused;
+        } else {
+            const Stopwatch watch;
+            TransferFrame frame = transfer.compute(positions);
+            add(run, frame, watch.seconds(), watch.cpuSeconds());
+            out.blocks.push_back({std::move(positions), std::move(frame.coefficients)});
+        }
+        out.frames.push_back({f, static_cast<int>(out.blocks.size()) - 1});
+    }
+    if (run.computed > 0) {
+        run.listed /= static_cast<double>(run.computed);
+        run.drawn /= static_cast<double>(run.computed);
+    }
+    return run;
+}
+
+/// `count` of the frames, the first and the last among them.
+static std::vector<TransferRecording::Frame> spread(const std::vector<TransferRecording::Frame>& all, int count) {
+    const std::size_t most = std::min(static_cast<std::size_t>(count), all.size());
+    std::vector<TransferRecording::Frame> out;
+    for (std::size_t i = 0; i < most; ++i)
+        out.push_back(all[most == 1 ? all.size() / 2 : i * (all.size() - 1) / (most - 1)]);
+    return out;
+}
+
+TransferMeasure measureTransfer(const TransferRecording& recording, std::size_t rays, int frames,
+                                const Progress& progress) {
+    TransferMeasure out;
+    const std::size_t count = recording.coefficientCount();
+    const CornersOfVertices corners = cornersOfVertices(recording.triangles, recording.vertexCount());
+    std::vector<float> found;
+    std::vector<double> truth;
+    const std::vector<TransferRecording::Frame> chosen = spread(recording.frames, frames);
+    for (const TransferRecording::Frame& frame : chosen) {
+        report(progress, "tracing", static_cast<double>(out.frames.size()) / static_cast<double>(chosen.size()));
+        out.frames.push_back(frame.number);
+        const TransferRecording::Block& block = recording.blocks[static_cast<std::size_t>(frame.block)];
+        const std::vector<glm::vec3> normals = vertexNormals(recording.triangles, corners, block.positions);
+        std::vector<std::uint32_t> vertices;
+        for (std::uint32_t v = 0; v < normals.size(); ++v)
+            if (normals[v] != glm::vec3(0)) vertices.push_back(v);
+        const std::vector<double> traced =
+            tracedTransfer(recording.triangles, block.positions, normals, vertices, recording.order, rays);
+        truth.insert(truth.end(), traced.begin(), traced.end());
+        for (const std::uint32_t v : vertices) {
+            const auto begin = block.coefficients.begin() + static_cast<std::ptrdiff_t>(v * count);
+            found.insert(found.end(), begin, begin + static_cast<std::ptrdiff_t>(count));
+        }
+    }
+    out.error = transferError(found, truth, count);
+    return out;
+}
+
+}  // namespace nacre::cli

@@ -1,0 +1,42 @@
+// What `nacre transfer` does: all frames computed and timed, and their error measured.
+#pragma once
+
+#include <optional>
+
+#include "core/progress.hpp"
+#include "reference/transfer_trace.hpp"
+#include "transfer/self_transfer.hpp"
+#include "transfer/transfer_file.hpp"
+
+namespace nacre::cli {
+
+struct TransferRun {
+    TransferRecording recording;
+    std::vector<int> refused;       ///< frames with positions that aren't finite
+    std::size_t reused = 0;         ///< frames in which nothing moved
+    std::size_t computed = 0;       ///< vertices of all computed frames
+    std::size_t withoutNormal = 0;  ///< vertices, most in any frame
+    double wallSeconds = 0;         ///< of compute() alone, after one frame to warm up
+    TransferSeconds seconds;        ///< of all threads together
+    double listed = 0, drawn = 0;   ///< blockers a vertex, mean
+    std::size_t coarseTriangles = 0;
+    bool closed = false;
+    BlockingSides sides = BlockingSides::Auto;
+};
+
+/// \param first, end  frames first … end − 1 of the animation
+/// \throws nacre::Error naming the animation when no frame has finite positions
+TransferRun runTransfer(const AnimatedMesh& animation, int first, int end, const SelfTransferOptions& options,
+                        const std::string& name, const Progress& progress);
+
+struct TransferMeasure {
+    TransferError error;
+    std::vector<int> frames;  ///< that were traced
+};
+
+/// Against rays, over all vertices that have a normal, in frames spread over those that are there.
+/// \param rays  a vertex \param frames  at most so many
+TransferMeasure measureTransfer(const TransferRecording& recording, std::size_t rays, int frames,
+                                const Progress& progress);
+
+}  // namespace nacre::cli

@@ -1,0 +1,315 @@
+// nacre transfer: light transfer of a moving mesh's vertices, timed and measured.
+#include <fmt/format.h>
+
+#include <charconv>
+#include <filesystem>
+#include <memory>
+
+#include "cli/numbers.hpp"
+#include "cli/output_file.hpp"
+#include "cli/terminal.hpp"
+#include "cli/transfer_light.hpp"
+#include "cli/transfer_run.hpp"
+#include "cli/verb.hpp"
+#include "core/error.hpp"
+#include "core/file.hpp"
+#include "core/version.hpp"
+#include "shading/motion.hpp"
+
+namespace nacre::cli {
+
+using nlohmann::json;
+
+namespace {
+
+struct Settings {
+    std::string model, output, clip, ply, sides = "auto", vectors = "widest", weights;
+    SelfTransferOptions options;
+    TransferLight light;
+    int first = 0, end = 0;  ///< end 0: all
+    std::size_t rays = 0;    ///< 0: no reference
+    int referenceFrames = 8;
+    bool asJson = false;
+};
+
+/// a:b, a:, :b
+void takeFrames(Settings& s, const std::string& text) {
+    const std::size_t colon = text.find(':');
+    const auto wrong = [&] {
+        return UsageError(fmt::format("expected A:B, frames A to B - 1 with 0 <= A < B, found '{}'", text));
+    };
+    if (colon == std::string::npos) throw wrong();
+    const auto number = [&](std::string_view part, int fallback) {
+        int value = fallback;
+        if (part.empty()) return value;
+        const auto [end, failure] = std::from_chars(part.data(), part.data() + part.size(), value);
+        if (failure != std::errc{} || end != part.data() + part.size() || value < 0) throw wrong();
+        return value;
+    };
+    s.first = number(std::string_view(text).substr(0, colon), 0);
+    s.end = number(std::string_view(text).substr(colon + 1), 0);
+    const bool open = colon + 1 == text.size();
+    if (!open && s.end <= s.first) throw wrong();
+}
+
+void takeWeights(Settings& s) {
+    if (s.weights.empty()) return;
+    s.light.weights.resize(s.light.files.size());
+    bool good = parseNumbers(s.weights, s.light.weights) && !s.light.files.empty();
+    for (const double w : s.light.weights) good = good && std::isfinite(w) && w >= 0;
+    if (!good)
+        throw UsageError(
+            fmt::format("--weights: expected a number >= 0 for each of {} --env, separated by commas, found '{}'",
+                        s.light.files.size(), s.weights));
+}
+
+BlockingSides sidesOf(const std::string& name) {
+    return name == "front" ? BlockingSides::Front : name == "both" ? BlockingSides::Both : BlockingSides::Auto;
+}
+
+/// 3, 5-8, 12
+std::string ranges(const std::vector<int>& numbers) {
+    std::string out;
+    for (std::size_t i = 0, last = 0; i < numbers.size(); i = last + 1) {
+        for (last = i; last + 1 < numbers.size() && numbers[last + 1] == numbers[last] + 1;) ++last;
+        out += (i ? ", " : "") + std::to_string(numbers[i]);
+        if (last > i) out += "-" + std::to_string(numbers[last]);
+    }
+    return out;
+}
+
+AnimatedMesh read(Settings& s) {
+    MotionOptions motion;
+    motion.clip = s.clip;
+    motion.frames = s.end;
+    motion.note = [&](const std::string& note) { tell(fmt::format("{}: {}", s.model, note)); };
+    AnimatedMesh animation = loadMotion(s.model, motion);
+    const int count = static_cast<int>(animation.frames.size());
+    if (s.end == 0) s.end = count;
+    if (s.end > count || s.first >= s.end)
+        throw UsageError(
+            fmt::format("--frames: expected frames of {}, which has {}, found {}:{}", s.model, count, s.first, s.end));
+    return animation;
+}
+
+json errorJson(const TransferMeasure& m, std::size_t rays) {
+    return {{"l2_rel", m.error.mean},       {"median", m.error.median}, {"p95", m.error.p95},
+            {"total", m.error.total},       {"buried", m.error.buried}, {"rays", rays},
+            {"vertices", m.error.vertices}, {"frames", m.frames}};
+}
+
+/// What the file says of itself besides what its numbers need: nothing that differs from run to run.
+json description(const Context& context, const Settings& s, const TransferRun& run) {
+    const SelfTransferOptions& o = s.options;
+    json out = {{"nacre", nacreVersion()},
+                {"command_line", context.commandLine},
+                {"source", s.model},
+                {"options",
+                 {{"mask", o.mask},
+                  {"rings", o.rings},
+                  {"coarse", o.coarse},
+                  {"lod_angle", o.lodAngle},
+                  {"sides", run.sides == BlockingSides::Front ? "front" : "both"}}},
+                {"closed", run.closed},
+                {"coarse_triangles", run.coarseTriangles},
+                {"blockers", {{"listed", run.listed}, {"drawn", run.drawn}}},
+                {"vertices_without_normal", run.withoutNormal},
+                {"frames_reused", run.reused},
+                {"frames_refused", run.refused}};
+    if (!s.clip.empty()) out["options"]["clip"] = s.clip;
+    std::error_code ignored;
+    if (std::filesystem::is_regular_file(s.model, ignored)) out["source_hash"] = fileHash(s.model);
+    return out;
+}
+
+json speedJson(const TransferRun& run, const Settings& s) {
+    const TransferSeconds& t = run.seconds;
+    const double frames = static_cast<double>(run.recording.blocks.size());
+    return {{"vertices_per_second", static_cast<double>(run.computed) / run.wallSeconds},
+            {"frames_per_second", frames / run.wallSeconds},
+            {"compute_seconds", run.wallSeconds},
+            {"vectors", s.vectors},
+            {"threads", s.options.threads},
+            {"seconds",
+             {{"rasterization", t.rasterization},
+              {"integration", t.integration},
+              {"transform", t.transform},
+              {"other", t.other}}}};
+}
+
+std::string text(const Settings& s, const TransferRun& run, const json& data) {
+    const TransferRecording& r = run.recording;
+    std::string out =
+        fmt::format("{}: {} frames ({} reused), {} vertices, {} triangles, order {}, {}\n", s.output, r.frames.size(),
+                    run.reused, r.vertexCount(), r.triangles.size(), r.order, humanBytes(data["bytes"]));
+    out += fmt::format("  speed       {:.4g} vertices/s, {:.4g} frames/s\n", data["vertices_per_second"].get<double>(),
+                       data["frames_per_second"].get<double>());
+    out +=
+        fmt::format("  blockers    {:.1f} listed a vertex, {:.1f} drawn; coarsest level {} triangles, {} sides\n",
+                    run.listed, run.drawn, run.coarseTriangles, run.sides == BlockingSides::Front ? "front" : "both");
+    const TransferSeconds& t = run.seconds;
+    const double all = std::max(t.rasterization + t.integration + t.transform + t.other, 1e-30);
+    out += fmt::format(
+        "  time        {:.1f} % rasterization, {:.1f} % integration, {:.1f} % transform, {:.1f} % other of {:.3g} CPU "
+        "s\n",
+        100 * t.rasterization / all, 100 * t.integration / all, 100 * t.transform / all, 100 * t.other / all, all);
+    if (run.withoutNormal > 0) out += fmt::format("  no normal   {} vertices: zeros\n", run.withoutNormal);
+    if (data.contains("error")) {
+        const json& e = data["error"];
+        out += fmt::format(
+            "  error       l2_rel {:.4f} (median {:.4f}, p95 {:.4f}, total {:.4f}) against {} rays a vertex "
+            "in {} frames; {} of {} vertices buried\n",
+            e["l2_rel"].get<double>(), e["median"].get<double>(), e["p95"].get<double>(), e["total"].get<double>(),
+            e["rays"].get<std::size_t>(), e["frames"].size(), e["buried"].get<std::size_t>(),
+            e["buried"].get<std::size_t>() + e["vertices"].get<std::size_t>());
+    }
+    if (data.contains("white"))
+        out += fmt::format("  colours     {}, white {:.4g}\n", s.ply, data["white"].get<double>());
+    return out;
+}
+
+void runTransferVerb(const Context& context, Settings s) {
+    takeWeights(s);
+    if (s.ply.empty() && (s.light.turnDeg != 0 || s.light.white != 0))
+        throw UsageError("--turn, --white: expected --ply, found none");
+    s.options.sides = sidesOf(s.sides);
+    s.options.vectors = vectorSetFromString(s.vectors);
+    maskKernel(s.options.mask, s.options.vectors);  // a processor without these vectors: said before the work
+    requireWritable(s.model, s.output, provisionalName(s.output), "");
+    if (!s.ply.empty()) requirePlyPlace(s.ply, s.first);
+    const LightCoefficients light = readLight(s.light, s.options.order);
+    const Progress progress = terminalProgress(context.quiet);
+    report(progress, "reading " + s.model, 0);
+    const Stopwatch reading;
+    const AnimatedMesh animation = read(s);
+    const double readSeconds = reading.seconds();
+    TransferRun run = runTransfer(animation, s.first, s.end, s.options, s.model, progress);
+    json& meta = run.recording.meta = description(context, s, run);
+    if (!s.light.files.empty()) {
+        meta["light"]["environments"] = s.light.files;
+        for (const Rgb& c : light) meta["light"]["coefficients"].push_back({c.x, c.y, c.z});
+    }
+    if (s.rays > 0)
+        meta["error"] = errorJson(measureTransfer(run.recording, s.rays, s.referenceFrames, progress), s.rays);
+    const Stopwatch writing;
+    writeTransfer(run.recording, s.output);
+    json data = meta;
+    data.update(speedJson(run, s));
+    data["read_seconds"] = readSeconds;
+    data["write_seconds"] = writing.seconds();
+    data["bytes"] = std::filesystem::file_size(s.output);
+    data["vertices"] = run.recording.vertexCount();
+    data["triangles"] = run.recording.triangles.size();
+    data["order"] = run.recording.order;
+    data["frames"] = run.recording.frames.size();
+    if (!s.ply.empty()) data["white"] = writePlyFrames(run.recording, light, s.light, s.ply, progress);
+    endProgress();
+    putData(s.asJson ? data.dump(2) + "\n" : text(s, run, data));
+    if (run.refused.empty()) return;
+    flushData();
+    throw Error(fmt::format("{}: expected finite positions, found others in {} {}, refused; {} other frames are in {}",
+                            s.model, run.refused.size() > 1 ? "frames" : "frame", ranges(run.refused),
+                            run.recording.frames.size(), s.output));
+}
+
+/// Finite, of either sign.
+std::function<void(const std::string&)> degreesInto(double& target) {
+    return [&target](const std::string& given) {
+        double v[1];
+        if (!parseNumbers(given, v) || !std::isfinite(v[0]))
+            throw UsageError(fmt::format("expected a finite number, found '{}'", given));
+        target = v[0];
+    };
+}
+
+constexpr const char* kDetails =
+    "MODEL is an animated file (glTF, FBX, .X, MD2, IQM, ...), a mesh that stands still, or one of cloth, chess, which "
+    "are\n"
+    "made here. At each vertex all that blocks its hemisphere is drawn into a mask of N x N bits, which is integrated\n"
+    "against spherical harmonics: V_i = integral of y_i V cos/pi. Radiance of a matt vertex is albedo x sum L_i V_i.\n"
+    "OUT holds these coefficients for every frame, with the mesh; its format stands in transfer/transfer_file.hpp, "
+    "and\n"
+    "nacre info prints its header. Vertices that stay together are one. Frames in which nothing moves are computed "
+    "once;\n"
+    "a vertex without a normal gets zeros; a frame with positions that aren't finite is refused: the others are "
+    "written,\n"
+    "and the exit code is 1.\n"
+    "Speed is wall time of the computation alone, after a frame to warm up; the split is CPU time of all threads.\n"
+    "Transform: moving and listing blockers, and culling them. Error: mean over vertices of |V - truth| / |truth|, "
+    "with "
+    "truth\n"
+    "from --reference N rays a vertex through the full mesh; buried vertices, which see less than a hundredth, count "
+    "only\n"
+    "in total, the root of the sums' ratio.\n"
+    "Example: the cloth's first second, in the light of a city:\n"
+    "  nacre transfer cloth -o cloth.tv --frames 0:30 --reference 1024 --env city.hdr --ply cloth_####.ply";
+
+std::vector<Option> options(const std::shared_ptr<Settings>& s) {
+    return {
+        {"model", "MODEL", "Animated mesh, or cloth, chess", into(s->model), true},
+        {"-o,--output", "OUT", "The file to write", into(s->output), true},
+        {"--frames", "A:B", "Frames A to B - 1, counted from 0 (default all)",
+         [s](const std::string& given) { takeFrames(*s, given); }},
+        {"--clip", "NAME", "Of the file's animations, by name or number (default the first)", into(s->clip)},
+        {"--mask",
+         "N",
+         "Bits a side of the hemisphere's mask (default 32)",
+         [s](const std::string& given) { s->options.mask = std::stoi(given); },
+         false,
+         {"16", "32", "64", "128"}},
+        {"--order", "L", "Highest band of the harmonics, 0 to 6 (default 4: 25 coefficients)",
+         integerInto([s](long long v) { s->options.order = static_cast<int>(v); }, 0, kMaxTransferOrder)},
+        {"--rings", "R", "The mesh itself blocks within so many rings of triangles, 1 or 2 (default 1)",
+         integerInto([s](long long v) { s->options.rings = static_cast<int>(v); }, 1, 2)},
+        {"--coarse", "N", "Triangles of the coarsest level of detail (default 400); 0: the mesh itself everywhere",
+         integerInto([s](long long v) { s->options.coarse = static_cast<std::size_t>(v); }, 0, 1 << 30)},
+        {"--lod-angle", "RAD", "A level is used where it is off by less, seen from the vertex (default 0.02)",
+         positiveInto([s](double v) { s->options.lodAngle = v; })},
+        {"--sides",
+         "NAME",
+         "Sides that block: front on closed meshes (auto, default), front, both",
+         into(s->sides),
+         false,
+         {"auto", "front", "both"}},
+        {"--vectors",
+         "NAME",
+         "The processor's; the same bits for any (default widest)",
+         into(s->vectors),
+         false,
+         {"plain", "avx2", "avx512", "widest"}},
+        {"--reference", "N", "Measure the error against N rays a vertex",
+         integerInto([s](long long v) { s->rays = static_cast<std::size_t>(v); }, 1, 1 << 24)},
+        {"--reference-frames", "K", "In at most K frames, spread over all (default 8)",
+         integerInto([s](long long v) { s->referenceFrames = static_cast<int>(v); }, 1, 1 << 20)},
+        {"--env",
+         "FILE",
+         "Radiance map to light with; may be repeated, and is blended (default: white)",
+         [s](const std::string& given) { s->light.files.push_back(given); },
+         false,
+         {},
+         true},
+        {"--weights", "W,W,...", "Of each --env (default equal, of sum 1)", into(s->weights)},
+        {"--turn", "DEGREES", "The light turns about y, from +z towards +x, so far in a second (default 0)",
+         degreesInto(s->light.turnDeg)},
+        {"--ply", "PLACE", "Also coloured meshes: a folder, or a name like cloth_####.ply", into(s->ply)},
+        {"--white", "W", "Radiance shown as white in PLY (default 1.5 x the first frame's 90th percentile)",
+         positiveInto([s](double v) { s->light.white = v; })},
+        {"--threads", "N", "0 = all cores; the same bits for any",
+         integerInto([s](long long v) { s->options.threads = s->light.threads = static_cast<unsigned>(v); }, 0, 1024)},
+        {"--json", "", "One JSON object on standard output", into(s->asJson)}};
+}
+
+}  // namespace
+
+Verb transferVerb(Context& context) {
+    const auto s = std::make_shared<Settings>();
+    Verb verb{"transfer",
+              "Soft self-shadows of a moving mesh: light transfer of every vertex and frame",
+              kDetails,
+              options(s),
+              {}};
+    verb.run = [s, &context] { runTransferVerb(context, *s); };
+    return verb;
+}
+
+}  // namespace nacre::cli
