@@ -186,6 +186,7 @@ std::vector<ProgramCase> programs() {
     out.push_back({"lit_vertex.vert.glsl", "lit_vertex.frag.glsl", {spots, brdfs.front(), brdfs.back()}});
     out.push_back({"lit.vert.glsl", "lit.frag.glsl", combined({brdfs.front()}, shadowChoices())});
     out.push_back({"lit.vert.glsl", "shadow_mask.frag.glsl", shadowChoices()});
+    out.push_back({"vertex_light.vert.glsl", "vertex_light.frag.glsl", {{}}});
     out.push_back({"fullscreen.vert.glsl", "shadow_blocks.frag.glsl", {{}}});
     out.push_back({"fullscreen.vert.glsl", "alpha_copy.frag.glsl", {{}}});
     std::vector<ShaderDefines> alpha;
