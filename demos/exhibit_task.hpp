@@ -35,6 +35,10 @@ struct NamedExhibit {
 const std::vector<NamedExhibit>& environmentExhibits();
 const std::vector<NamedExhibit>& bumpExhibits();
 const std::vector<NamedExhibit>& sceneExhibits();
+const std::vector<NamedExhibit>& transferExhibits();
+
+/// shadow_exhibits.cpp
+Exhibit shadowStudyExhibit(const Task& task);
 
 /// environment_sweeps.cpp
 Exhibit ggxSweepExhibit(const Task& task);

@@ -62,6 +62,7 @@ std::vector<double> tracedTransfer(std::span<const glm::uvec3> triangles, std::s
     std::vector<double> truth(vertices.size() * count, 0);
     parallelFor(vertices.size(), 0, [&](std::size_t i) {
         const Vec3 n = normals[vertices[i]], p = Vec3(positions[vertices[i]]) + offset * n;
+        if (n == Vec3(0)) return;
         const Vec3 side = std::abs(n.x) < 0.6 ? Vec3(1, 0, 0) : Vec3(0, 1, 0);
         const Vec3 t = glm::normalize(glm::cross(side, n)), b = glm::cross(n, t);
         const Vec2 shift(radicalInverse(vertices[i] + 1, 3), radicalInverse(vertices[i] + 1, 5));

@@ -12,7 +12,8 @@ namespace nacre {
 /// realHarmonics has them, V by rays from just over the vertex (1e-5 of the mesh's extent along n) that any side of any
 /// triangle stops. Rays are cosine-distributed, a low-discrepancy set turned anew for each vertex; what is hidden is
 /// taken from the open hemisphere's transfer, which is known: less noise, the same mean. \param vertices  which \param
-/// normals  unit, one a position \param order  of the harmonics \param rays  a vertex, ≥ 1 \return [vertex][(order +
+/// normals  unit, one a position; 0 where there is none: its transfer is 0
+/// \param order  of the harmonics \param rays  a vertex, ≥ 1 \return [vertex][(order +
 /// 1)²]
 std::vector<double> tracedTransfer(std::span<const glm::uvec3> triangles, std::span<const glm::vec3> positions,
                                    std::span<const glm::vec3> normals, std::span<const std::uint32_t> vertices,

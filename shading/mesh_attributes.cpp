@@ -1,5 +1,6 @@
 #include "shading/mesh_attributes.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cstring>
 #include <unordered_map>
@@ -72,6 +73,13 @@ std::size_t makeNormals(Mesh& mesh) {
         mesh.normals[i] = length < 1e-9 ? glm::vec3(0, 0, 1) : glm::vec3(sum / length);
     }
     return without;
+}
+
+bool hasUv(const Mesh& mesh) {
+    return std::any_of(mesh.triangles.begin(), mesh.triangles.end(), [&mesh](const glm::uvec3& t) {
+        const Vec2 a(mesh.uvs.at(t.x)), ab = Vec2(mesh.uvs.at(t.y)) - a, ac = Vec2(mesh.uvs.at(t.z)) - a;
+        return ab.x * ac.y != ab.y * ac.x;
+    });
 }
 
 void makeTangents(Mesh& mesh) {

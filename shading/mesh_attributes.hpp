@@ -19,6 +19,10 @@ std::size_t makeNormals(Mesh& mesh);
 /// the sign of the uv area; elsewhere tangentAround(normal).
 void makeTangents(Mesh& mesh);
 
+/// Whether the uv of some triangle has area: without one a relief or any other picture on the mesh is a single texel,
+/// or a line of them.
+bool hasUv(const Mesh& mesh);
+
 /// A unit tangent for a normal that has none: along the parallels about y, normalize(y × n), and +x where n is ±y.
 glm::vec4 tangentAround(const glm::vec3& normal);
 

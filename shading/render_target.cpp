@@ -41,6 +41,12 @@ RenderTarget::RenderTarget(const RenderTargetOptions& options) : options_(option
     if (options.samples > std::max(most, 1))
         throw Error(
             fmt::format("render target: expected at most the driver's {} samples, found {}", most, options.samples));
+    glGetIntegerv(GL_MAX_RENDERBUFFER_SIZE, &most);
+    if (options.width > most || options.height > most)
+        throw Error(
+            fmt::format("render target: expected edges of at most {} pixels, which the driver can hold, found "
+                        "{} x {}",
+                        most, options.width, options.height));
     const GLenum format = options.color == ColorFormat::Rgba16F ? GL_RGBA16F : GL_RGBA32F;
     glBindFramebuffer(GL_FRAMEBUFFER, framebuffer_.name());
     attach(color_.name(), GL_COLOR_ATTACHMENT0, format, options, options.samples);

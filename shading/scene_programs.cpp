@@ -11,6 +11,7 @@
 #include "factorize/models/models.hpp"
 #include "shading/environment_pass.hpp"
 #include "shading/gpu_direct_brdf.hpp"
+#include "shading/mesh_attributes.hpp"
 #include "shading/pass_state.hpp"
 #include "shading/shadow_map.hpp"
 
@@ -123,6 +124,16 @@ std::string called(const char* what, const std::string& name, std::size_t index)
     return name.empty() ? fmt::format("{} {}", what, index) : fmt::format("{} '{}'", what, name);
 }
 
+/// A relief lies in the mesh's uv.
+void checkUv(const SceneDescription& scene, const SceneNode& node, const std::string& where) {
+    if (node.mesh < 0) return;
+    const SceneMaterial& material = scene.materials[static_cast<std::size_t>(node.material)];
+    const SceneMesh& mesh = scene.meshes[static_cast<std::size_t>(node.mesh)];
+    if (material.relief && !mesh.mesh.triangles.empty() && !hasUv(mesh.mesh))
+        throw Error(fmt::format("{}: expected a mesh with uv for the relief of '{}', found none in '{}'", where,
+                                material.name, mesh.name));
+}
+
 EnvironmentWeight weightOf(const SceneSurrounding& s, const std::vector<AssetTraits>& assets) {
     if (s.table < 0) return EnvironmentWeight::One;
     if (at(assets, s.table).kind == "fresnel") return EnvironmentWeight::Fresnel;
@@ -189,8 +200,9 @@ AssetTraits traitsOf(const Asset& asset, const std::string& name) {
 
 void checkScene(const SceneDescription& scene, const std::vector<AssetTraits>& assets) {
     require(assets.size() == scene.assets.size(), "checkScene: expected the traits of each asset");
-    require(scene.lights.size() <= static_cast<std::size_t>(kMaxLights),
-            fmt::format("scene: expected at most {} lights, found {}", kMaxLights, scene.lights.size()));
+    if (scene.lights.size() > static_cast<std::size_t>(kMaxLights))
+        throw Error(fmt::format("{}: expected at most {} lights, found {}",
+                                scene.file.empty() ? "scene" : scene.file.string(), kMaxLights, scene.lights.size()));
     for (std::size_t i = 0; i < scene.materials.size(); ++i)
         MaterialCheck(scene, assets, called("material", scene.materials[i].name, i))(scene.materials[i]);
     for (std::size_t i = 0; i < scene.nodes.size(); ++i) {
@@ -199,8 +211,18 @@ void checkScene(const SceneDescription& scene, const std::vector<AssetTraits>& a
         check.index(node.parent, i, "parent");
         check.index(node.mesh, scene.meshes.size(), "mesh");
         check.index(node.material, scene.materials.size(), "material");
-        require((node.mesh < 0) == (node.material < 0),
-                called("node", node.name, i) + ": expected mesh and material, or neither");
+        check.index(node.volume, scene.volumes.size(), "volume");
+        require((node.mesh < 0 && node.volume < 0) == (node.material < 0) && (node.mesh < 0 || node.volume < 0),
+                called("node", node.name, i) + ": expected mesh or volume and material, or none");
+        if (node.volume >= 0 && scene.materials[static_cast<std::size_t>(node.material)].relief)
+            throw Error(called("node", node.name, i) + ": expected a material without relief for a volume, found '" +
+                        scene.materials[static_cast<std::size_t>(node.material)].name + "'");
+    }
+    for (std::size_t i = 0; i < scene.volumes.size(); ++i) {
+        const SceneVolume& volume = scene.volumes[i];
+        require(volume.volume != nullptr, called("volume", volume.name, i) + ": none");
+        require(std::isfinite(volume.iso) && std::isfinite(volume.step) && volume.step > 0,
+                called("volume", volume.name, i) + ": expected iso and step finite, step > 0");
     }
     for (std::size_t i = 0; i < scene.lights.size(); ++i)
         MaterialCheck(scene, assets, called("light", scene.lights[i].name, i))
@@ -263,15 +285,34 @@ SceneProgram materialProgram(const SceneDescription& scene, const SceneMaterial&
     return {"lit.vert.glsl", "scene.frag.glsl", std::move(defines)};
 }
 
+SceneSwitches volumeSwitches(SceneSwitches switches) {
+    if (switches.reflectance == SceneReflectance::FastPhong) switches.reflectance = SceneReflectance::FactoredOrModel;
+    return switches;
+}
+
+SceneProgram volumeProgram(const SceneDescription& scene, const SceneVolume& volume, const SceneMaterial& m,
+                           const std::vector<AssetTraits>& assets, const SceneSwitches& switches,
+                           const ShaderDefines& shadows) {
+    SceneProgram out = materialProgram(scene, m, assets, volumeSwitches(switches), shadows);
+    out.vertex = "volume.vert.glsl";
+    out.fragment = "volume.frag.glsl";
+    if (volume.method == VolumeMethod::March) out.defines.emplace_back("NACRE_VOLUME_MARCH", "1");
+    return out;
+}
+
 std::vector<ListedProgram> scenePrograms(const SceneDescription& scene, const std::vector<AssetTraits>& assets,
                                          const SceneSwitches& switches) {
     const ShaderDefines shadows = switches.shadows ? shadowDefinesOf(scene) : ShaderDefines();
     std::vector<ListedProgram> out;
     for (std::size_t i = 0; i < scene.nodes.size(); ++i) {
-        if (scene.nodes[i].mesh < 0) continue;
-        const SceneMaterial& material = scene.materials.at(static_cast<std::size_t>(scene.nodes[i].material));
-        SceneProgram program = materialProgram(scene, material, assets, switches,
-                                               scene.nodes[i].receivesShadow ? shadows : ShaderDefines());
+        const SceneNode& node = scene.nodes[i];
+        if (node.material < 0) continue;
+        const SceneMaterial& material = scene.materials.at(static_cast<std::size_t>(node.material));
+        const ShaderDefines received = node.receivesShadow ? shadows : ShaderDefines();
+        SceneProgram program = node.mesh >= 0
+                                   ? materialProgram(scene, material, assets, switches, received)
+                                   : volumeProgram(scene, scene.volumes.at(static_cast<std::size_t>(node.volume)),
+                                                   material, assets, switches, received);
         auto known = std::find_if(out.begin(), out.end(), [&](const ListedProgram& p) { return p.program == program; });
         if (known == out.end()) known = out.insert(out.end(), {std::move(program), {}});
         known->nodes.push_back(static_cast<int>(i));

@@ -52,6 +52,9 @@ int run(int argc, char** argv) {
     cli.add_flag("--no-panel", noPanel, "Without the panel (Tab brings it)");
     cli.add_option("--benchmark", options.benchmark, "Draw N frames, print their times as JSON, and close")
         ->check(CLI::Range(1, 100000));
+    cli.add_option("--lose-context", options.loseContextAfter, "After N frames, once: for tests")
+        ->check(CLI::Range(1, 100000))
+        ->group("");  // not in the help
     cli.add_flag("--trace", options.trace, "One JSON line on standard output for each frame shown");
     cli.parse(argc, argv);
     if (!size.empty()) takeSize(size, options);

@@ -16,9 +16,10 @@ struct ViewerOptions {
     std::vector<std::filesystem::path> assetFolders;
     std::filesystem::path screenshots = ".";
     int referencePasses = 16;
-    int referenceScale = 2;  ///< the reference has 1/n of the picture's edges
-    int benchmark = 0;       ///< frames to draw and time; 0: stay open
-    bool trace = false;      ///< one JSON line on standard output for each frame shown
+    int referenceScale = 2;    ///< the reference has 1/n of the picture's edges
+    int benchmark = 0;         ///< frames to draw and time; 0: stay open
+    int loseContextAfter = 0;  ///< frames after which the first context counts as lost, for tests; 0: never
+    bool trace = false;        ///< one JSON line on standard output for each frame shown
 };
 
 }  // namespace nacre

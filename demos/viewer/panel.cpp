@@ -133,7 +133,11 @@ void sections(ViewerSession& session, Comparison& comparison, PanelState& state)
     if (open("Material")) materialSection(session, state);
     if (!session.scene().lights.empty() && open("Light")) lightSection(session, state);
     if (open("Method")) methodSection(session);
-    if (!session.scene().assets.empty() && ImGui::CollapsingHeader("Baked assets")) assetSection(session, state);
+    if (!session.scene().assets.empty()) {
+        const bool assets = ImGui::CollapsingHeader("Baked assets");
+        notePlace(state, "Baked assets");
+        if (assets) assetSection(session, state);
+    }
     const bool times = ImGui::CollapsingHeader("Times of the passes");
     if (times && !session.timing) session.touch();
     session.timing = times;
@@ -143,6 +147,7 @@ void sections(ViewerSession& session, Comparison& comparison, PanelState& state)
 }  // namespace
 
 void drawPanel(ViewerSession& session, Comparison& comparison, PanelState& state, Vec2 origin, Vec2 window) {
+    state.places.clear();
     if (state.open) {
         drawMarks(session, state, origin);
         ImGui::SetNextWindowPos(ImVec2(0, 0));

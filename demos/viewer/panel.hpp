@@ -23,9 +23,14 @@ struct PanelState {
     double frameSeconds = 0;                  ///< smoothed, of whole frames
     std::map<std::string, double> passTimes;  ///< smoothed [s]
     bool wantsScreenshot = false, wantsAutoExposure = false, wantsFind = true;
-    std::string wantsCopy;  ///< text for the clipboard
-    std::string device;     ///< what draws
+    bool wantsQuit = false;
+    std::map<std::string, Vec2> places;  ///< middles of what can be clicked to choose files [pixels of the window]
+    std::string wantsCopy;               ///< text for the clipboard
+    std::string device;                  ///< what draws
 };
+
+/// The picture's top left corner in the window.
+inline Vec2 pictureOrigin(const PanelState& state) { return {state.open ? kPanelWidth : 0, 0}; }
 
 /// A light's mark in the picture.
 struct LightMark {

@@ -8,6 +8,7 @@
 
 #include "demos/viewer/light_drag.hpp"
 #include "factorize/models/models.hpp"
+#include "shading/mesh_attributes.hpp"
 
 namespace nacre {
 namespace {
@@ -87,15 +88,20 @@ void modelInput(ViewerSession& session, PanelState& state, std::size_t node) {
 }
 
 /// A list of the baked files of one kind. \return the chosen one, or empty
-std::filesystem::path foundCombo(const char* label, const char* preview, const std::string& kind, PanelState& state) {
+std::filesystem::path foundCombo(const std::string& label, const char* preview, const std::string& kind,
+                                 PanelState& state) {
     std::filesystem::path out;
-    if (!ImGui::BeginCombo(label, preview)) return out;
+    if (!ImGui::BeginCombo(label.c_str(), preview)) {
+        notePlace(state, label);
+        return out;
+    }
     if (ImGui::IsWindowAppearing()) state.wantsFind = true;
     bool none = true;
     for (const FoundAsset& asset : state.found) {
         if (asset.kind != kind) continue;
         none = false;
         if (ImGui::Selectable(asset.file.filename().c_str())) out = asset.file;
+        notePlace(state, label + "/" + asset.file.filename().string());
         if (ImGui::IsItemHovered()) ImGui::SetTooltip("%s", asset.file.c_str());
     }
     if (none) ImGui::TextDisabled("none beside the scene; --assets DIR adds folders");
@@ -103,13 +109,19 @@ std::filesystem::path foundCombo(const char* label, const char* preview, const s
     return out;
 }
 
-void reliefCombo(ViewerSession& session, PanelState& state, std::size_t material) {
+void reliefCombo(ViewerSession& session, PanelState& state, std::size_t node) {
+    const auto material = static_cast<std::size_t>(session.scene().nodes[node].material);
     const std::optional<SceneRelief>& relief = session.scene().materials[material].relief;
     const std::string now =
         relief ? session.scene().assets[static_cast<std::size_t>(relief->asset)].file.filename().string()
                : "baked reliefs...";
     const bool remove = relief && ImGui::Button("Flat");
-    if (relief) ImGui::SameLine();
+    if (relief) {
+        notePlace(state, "Flat");
+        ImGui::SameLine();
+    }
+    const SceneMesh& mesh = session.scene().meshes[static_cast<std::size_t>(session.scene().nodes[node].mesh)];
+    if (!hasUv(mesh.mesh)) return ImGui::TextDisabled("relief: the mesh has no texture coordinates");
     const std::filesystem::path file = foundCombo("relief", now.c_str(), "bump", state);
     if (remove || !file.empty()) session.setRelief(material, remove ? std::filesystem::path() : file);
 }
@@ -129,6 +141,11 @@ void assetFacts(const GpuAsset& asset) {
 
 }  // namespace
 
+void notePlace(PanelState& state, const std::string& name) {
+    const ImVec2 low = ImGui::GetItemRectMin(), high = ImGui::GetItemRectMax();
+    state.places[name] = {0.5 * (low.x + high.x), 0.5 * (low.y + high.y)};
+}
+
 void materialSection(ViewerSession& session, PanelState& state) {
     nodeCombo(session, state);
     if (state.node < 0) return ImGui::TextDisabled("the scene has no mesh");
@@ -142,7 +159,7 @@ void materialSection(ViewerSession& session, PanelState& state) {
     ImGui::SameLine();
     if (ImGui::Button("Load") || entered) session.setNodeMaterial(node, state.fileText);
     const auto material = static_cast<std::size_t>(session.scene().nodes[node].material);
-    reliefCombo(session, state, material);
+    reliefCombo(session, state, node);
     SceneMaterial value = session.scene().materials[material];
     if (colorEdit("ambient", value.ambient)) session.setMaterial(material, value);
 }
@@ -182,7 +199,8 @@ void assetSection(ViewerSession& session, PanelState& state) {
         if (ImGui::TreeNodeEx(asset.name.c_str(), ImGuiTreeNodeFlags_DefaultOpen, "%s (%s)", asset.name.c_str(),
                               kind.c_str())) {
             assetFacts(gpu);
-            const std::filesystem::path other = foundCombo("file", asset.file.filename().c_str(), kind, state);
+            const std::filesystem::path other =
+                foundCombo("file##" + asset.name, asset.file.filename().c_str(), kind, state);
             if (!other.empty() && other != asset.file) session.replaceAsset(i, other);
             if (kind == "environment" && session.scene().sky.asset != static_cast<int>(i) &&
                 ImGui::Button("Use as background")) {

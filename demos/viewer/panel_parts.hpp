@@ -5,6 +5,9 @@
 
 namespace nacre {
 
+/// Notes where the item that was drawn last stands.
+void notePlace(PanelState& state, const std::string& name);
+
 void materialSection(ViewerSession& session, PanelState& state);
 void lightSection(ViewerSession& session, PanelState& state);
 void assetSection(ViewerSession& session, PanelState& state);

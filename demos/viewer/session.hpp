@@ -21,13 +21,26 @@ struct SessionOptions {
     int samples = 1;                                  ///< per pixel
 };
 
+/// What a session shows, edits too, without the objects of its context.
+struct SessionState {
+    SessionOptions options;
+    SceneDescription scene;
+    Camera camera;
+    double time = 0;
+    bool playing = false;
+    SceneSwitches switches;
+    std::map<std::string, std::string> problems;
+};
+
 /// The context that is current in the constructor must be current in every call.
 class ViewerSession {
 public:
     /// \throws nacre::Error and std::invalid_argument: readScene, SceneRenderer
     explicit ViewerSession(SessionOptions options);
-    /// Shows what `other` shows, edits too: for a new context after a lost one.
-    void restore(const ViewerSession& other);
+    /// For a new context after a lost one: to be asked for in the old one, or without any.
+    SessionState state() const;
+    /// Shows what another session showed.
+    void restore(const SessionState& last);
 
     const SceneDescription& scene() const { return renderer_->scene(); }
     const SceneRenderer& renderer() const { return *renderer_; }

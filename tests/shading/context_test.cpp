@@ -1,12 +1,13 @@
 #include "shading/context.hpp"
 
-#include <gtest/gtest.h>
+#include <gmock/gmock.h>
 
 #include "core/error.hpp"
 #include "gpu_evaluate.hpp"
 #include "shading/draw.hpp"
 #include "shading/render_target.hpp"
 #include "shading/texture.hpp"
+#include "tests/core/scratch.hpp"
 
 namespace nacre {
 namespace {
@@ -73,6 +74,8 @@ TEST(RenderTarget, RejectsBadSizes) {
     EXPECT_THROW(RenderTarget({.width = 0}), std::invalid_argument);
     EXPECT_THROW(RenderTarget({.width = 1 << 20, .height = 1 << 20}), Error);
     EXPECT_THROW(RenderTarget({.width = 4, .height = 4, .samples = 4096}), Error);
+    EXPECT_THAT(tests::messageOf<Error>([] { RenderTarget({.width = 1 << 20, .height = 4}); }),
+                testing::HasSubstr("found 1048576 x 4"));
 }
 
 // The largest and smallest half floats, and every 8-bit code, arrive as they are.

@@ -157,6 +157,10 @@ TEST_F(Scenes, WhatDoesNotFitIsNamed) {
               "material 'ball': brdf: expected an asset of kind brdf, found 'wall' of kind bump");
     EXPECT_EQ(messageOf([](SceneDescription& s) { s.materials[0].relief->roughness = true; }),
               "material 'floor': relief: expected normals with roughness in 'wall', found none");
+    EXPECT_EQ(messageOf([](SceneDescription& s) {
+                  for (glm::vec2& uv : s.meshes[0].mesh.uvs) uv.y = 0.5f;  // a line
+              }),
+              "node 'floor': expected a mesh with uv for the relief of 'floor', found none in 'floor'");
     EXPECT_NE(messageOf([](SceneDescription& s) { s.materials[2].model = "wood"; }).find("material 'ring': model: "),
               std::string::npos);
     EXPECT_EQ(messageOf([](SceneDescription& s) { s.sky.asset = test::kFresnel; }),
@@ -166,7 +170,9 @@ TEST_F(Scenes, WhatDoesNotFitIsNamed) {
     EXPECT_THROW(SceneRenderer(loader_, scene), std::invalid_argument);
     scene = test::fullScene();
     scene.lights.resize(9, scene.lights[0]);
-    EXPECT_THROW(SceneRenderer(loader_, scene), std::invalid_argument);
+    scene.file = "nine.json";
+    EXPECT_EQ(tests::messageOf<Error>([&] { SceneRenderer(loader_, scene); }),
+              "nine.json: expected at most 8 lights, found 9");
 }
 
 TEST_F(Scenes, InstancesShareAMeshAndMirroredOnesAreMirrored) {

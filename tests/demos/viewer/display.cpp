@@ -90,7 +90,7 @@ int Child::code() {
 Display::Display() {
     // The server chooses a free number and tells it when it is ready.
     server_ =
-        std::make_unique<Child>(std::vector<std::string>{"Xvfb", "-displayfd", "1", "-screen", "0", "800x480x24",
+        std::make_unique<Child>(std::vector<std::string>{"Xvfb", "-displayfd", "1", "-screen", "0", "800x960x24",
                                                          "-nolisten", "tcp", "-fbdir", scratch_.folder().string()},
                                 1);
     const std::string number = server_->line();

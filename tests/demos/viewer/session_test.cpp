@@ -45,6 +45,14 @@ protected:
         EXPECT_TRUE(session.draw());
         return session;
     }
+    /// A relief: normals alone.
+    void writeSpike() const {
+        HeightMap heights{Image(8, 8, 1), Wrap::Repeat};
+        heights.heights.at(3, 4, 0) = 2;
+        BumpMaps maps{8, 8, Wrap::Repeat, {}, {}, {}, {}, {}, {}};
+        maps.normals = makeNormals(heights);
+        writeAsset(toAsset(maps), scratch_ / "spike.exr");
+    }
     static std::vector<float> pixels(ViewerSession& session) {
         session.draw();
         return session.target()->read().data();
@@ -85,11 +93,7 @@ TEST_F(Session, AnEditThatFailsChangesNothing) {
 }
 
 TEST_F(Session, AReliefIsAddedAndTakenAway) {
-    HeightMap heights{Image(8, 8, 1), Wrap::Repeat};
-    heights.heights.at(3, 4, 0) = 2;
-    BumpMaps maps{8, 8, Wrap::Repeat, {}, {}, {}, {}, {}, {}};
-    maps.normals = makeNormals(heights);
-    writeAsset(toAsset(maps), scratch_ / "spike.exr");
+    writeSpike();
     ViewerSession session = open();
     const std::vector<float> before = pixels(session);
     EXPECT_FALSE(session.setRelief(0, scratch_ / "absent.exr"));
@@ -101,6 +105,23 @@ TEST_F(Session, AReliefIsAddedAndTakenAway) {
     EXPECT_TRUE(session.setRelief(0, {}));
     EXPECT_THAT(session.problems(), IsEmpty());
     EXPECT_EQ(pixels(session), before);
+}
+
+TEST_F(Session, AMeshWithoutUvTakesNoRelief) {
+    writeSpike();
+    writeFile(scratch_ / "bare.obj", "v -1 -1 0\nv 1 -1 0\nv 0 1 0\nf 1 2 3\n");
+    std::string scene = kScene;
+    scene.replace(scene.find(R"("torus": {"torus": {}})"), 0, R"("bare": {"file": "bare.obj"}, )");
+    scene.replace(scene.find(R"("it": {)"), 0, R"("other": {"mesh": "bare", "material": "shiny"}, )");
+    write(scene);
+    ViewerSession session = open();
+    const std::vector<float> before = pixels(session);
+    EXPECT_FALSE(session.setRelief(1, scratch_ / "spike.exr"));
+    EXPECT_THAT(session.problems(), ElementsAre(Pair("relief", HasSubstr("node 'other': expected a mesh with uv"))));
+    EXPECT_EQ(pixels(session), before);
+    EXPECT_TRUE(session.setRelief(0, scratch_ / "spike.exr"));
+    EXPECT_FALSE(session.setNodeMaterial(1, 0));  // the one that has the relief now
+    EXPECT_THAT(session.problems(), ElementsAre(Pair("material", HasSubstr("node 'other': expected a mesh with uv"))));
 }
 
 TEST_F(Session, ReadsTheSceneAgainAndKeepsTheView) {
@@ -158,14 +179,13 @@ TEST_F(Session, GoesOnInANewContextAfterALostOne) {
     session->setNodeMaterial(0, std::string("phong:kd=0.2,ks=0.3,n=10"));
     session->move(orbited(session->camera, {10, 5}, 32));
     const std::vector<float> before = pixels(*session);
-    const Context other;  // as if the first were gone
+    const SessionState last = session->state();
+    session.reset();
+    context_.emplace();
     ViewerSession next({file(), {}, 1});
-    next.restore(*session);
+    next.restore(last);
     next.resize(48, 32);
     EXPECT_EQ(pixels(next), before);
-    context_->makeCurrent();
-    session.reset();
-    other.makeCurrent();
 }
 
 TEST_F(Session, ScreenshotsDontOverwriteEachOther) {

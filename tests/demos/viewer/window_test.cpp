@@ -197,6 +197,23 @@ TEST_F(ViewerWindow, AWindowOfOnePixelAndAHiddenOneComeBack) {
     EXPECT_TRUE(last["problems"].empty());
 }
 
+TEST_F(ViewerWindow, GoesOnInANewWindowAfterALostContext) {
+    const Display display;
+    std::vector<std::string> more = words();
+    more.insert(more.end(), {"--lose-context", "4"});
+    Viewer viewer(display, more);
+    viewer.until([](const json& line) { return line["frame"] == 4; });
+    const json again = viewer.until([](const json& line) { return line["frame"] == 1; });
+    const json first = viewer.until(settled);
+    EXPECT_EQ(first["camera"], again["camera"]);
+    display.send({"mousemove", std::to_string(first["window"][0].get<int>() + 100),
+                  std::to_string(first["window"][1].get<int>() + 75), "click", "4"});
+    const json closer = viewer.until([&](const json& line) { return eyeOf(line) != eyeOf(first) && settled(line); });
+    EXPECT_TRUE(closer["problems"].empty());
+    display.send({"key", "Escape"});
+    EXPECT_EQ(viewer.code(), 0);
+}
+
 TEST_F(ViewerWindow, TracesTheReferenceOfTheView) {
     const Display display;
     std::vector<std::string> more = words();
