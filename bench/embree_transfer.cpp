@@ -152,9 +152,8 @@ TransferFrame EmbreeTransfer::compute(std::span<const glm::vec3> positions) cons
             receivers[i] = receiverAt(positions[v], n, v);
             float hidden[32] = {};
             s.traceHidden(receivers[i], positions[v] + 1e-5f * extent * n, 1e3f * extent, hidden);
-            for (std::size_t c = 0; c < kCoefficients; ++c) local[i * kCoefficients + c] = -hidden[c];
-            for (std::size_t l = 0; l <= kOrder; ++l)
-                local[i * kCoefficients + l * l + l] += static_cast<float>(s.open[l]);
+            for (std::size_t c = 0; c < kCoefficients; ++c) local[c * kPacket + i] = -hidden[c];
+            for (std::size_t l = 0; l <= kOrder; ++l) local[(l * l + l) * kPacket + i] += static_cast<float>(s.open[l]);
         }
         s.rotation.turn(receivers, used, local, world);
         std::copy_n(world, used * kCoefficients, &frame.coefficients[kCoefficients * first]);

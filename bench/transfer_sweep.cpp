@@ -66,10 +66,15 @@ double wallSeconds() {
 
 }  // namespace
 
-SelfTransferOptions fastTransfer() { return {}; }
+SelfTransferOptions fastTransfer() {
+    SelfTransferOptions options;
+    options.coarse = 100, options.lodAngle = 0.05;
+    return options;
+}
+
 SelfTransferOptions qualityTransfer() {
     SelfTransferOptions options;
-    options.coarse = 0;
+    options.mask = 64, options.coarse = 100, options.lodAngle = 0.02;
     return options;
 }
 

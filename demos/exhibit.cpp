@@ -50,6 +50,19 @@ nlohmann::json panelJson(const Exhibit& e, const Panel& panel) {
     return json;
 }
 
+std::string tableHtml(const ExhibitTable& table) {
+    if (table.rows.empty()) return {};
+    std::vector<std::string> head;
+    for (const std::string& name : table.head) head.push_back(escapeHtml(name));
+    std::string html = "<table class=\"cards\">" + headRowHtml(head) + "<tbody>\n";
+    for (const std::vector<std::string>& row : table.rows) {
+        html += "<tr><td>" + escapeHtml(row[0]) + "</td>";
+        for (std::size_t i = 1; i < row.size(); ++i) html += cellHtml(head[i], escapeHtml(row[i]));
+        html += "</tr>\n";
+    }
+    return html + "</tbody></table>\n";
+}
+
 }  // namespace
 
 std::optional<double> lowestPsnr(const Exhibit& exhibit) {
@@ -87,6 +100,7 @@ std::string exhibitHtml(const Exhibit& e) {
         for (const Panel& panel : row.panels) html += panelHtml(e, panel);
         html += "</div>\n";
     }
+    html += tableHtml(e.table);
     if (e.geometryMilliseconds)
         html += fmt::format("<p class=\"soft\">the body without light: {} ms a frame</p>\n",
                             formatNumber(*e.geometryMilliseconds));
@@ -114,6 +128,11 @@ nlohmann::json exhibitJson(const Exhibit& e) {
                         {"rows", rows},
                         {"commands", e.commands},
                         {"difference_scale", checkedFinite(e.id, "differenceScale", e.differenceScale)}};
+    for (const std::vector<std::string>& row : e.table.rows)
+        require(!row.empty() && row.size() == e.table.head.size(),
+                fmt::format("gallery entry {}: expected {} cells in a table's row, found {}", e.id, e.table.head.size(),
+                            row.size()));
+    if (!e.table.rows.empty()) json["table"] = {{"head", e.table.head}, {"rows", e.table.rows}};
     if (e.geometryMilliseconds)
         json["geometry_milliseconds"] = checkedFinite(e.id, "geometryMilliseconds", *e.geometryMilliseconds);
     return json;

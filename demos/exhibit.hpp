@@ -36,6 +36,12 @@ struct PanelRow {
     bool ours = true;  ///< false: another method, shown for comparison; the summary leaves it out
 };
 
+/// Text in rows, as many cells each as `head` has; without rows nothing is shown.
+struct ExhibitTable {
+    std::vector<std::string> head;
+    std::vector<std::vector<std::string>> rows;
+};
+
 struct Exhibit {
     std::string id;  ///< as Entry's
     std::string section, title, caption;
@@ -44,6 +50,7 @@ struct Exhibit {
     std::optional<double> geometryMilliseconds;  ///< frame time of the first body without any light
     std::string scene;                           ///< bodies, maps, sizes, exposure, in words
     std::vector<std::string> commands;           ///< make the maps, word for word
+    ExhibitTable table{};
 };
 
 /// The lowest PSNR of its own panels (PanelRow::ours); nothing where none has a truth.
@@ -53,7 +60,7 @@ std::optional<double> lowestPsnr(const Exhibit& exhibit);
 std::optional<double> longestFrame(const Exhibit& exhibit);
 
 /// An <article>, and its facts for programs; checked as galleryPage checks entries: \throws std::invalid_argument for
-/// bad ids, no panel, empty pictures, numbers that are not finite
+/// bad ids, no panel, empty pictures, numbers that are not finite, table rows of another length than the head
 std::string exhibitHtml(const Exhibit& exhibit);
 nlohmann::json exhibitJson(const Exhibit& exhibit);
 

@@ -1,5 +1,5 @@
 // The gallery's exhibits: environment maps (HSE figure 5, roughness sweeps, orientation) and bump maps (HSE figures 9
-// and 13).
+// and 13), shadow maps, scenes, volumes.
 #pragma once
 
 #include <filesystem>
@@ -15,6 +15,7 @@ struct ExhibitOptions {
     std::filesystem::path heightFolder;  ///< holds NAME.bmp, the same
     std::filesystem::path sceneFolder;   ///< holds NAME.json, whose assets are baked: demos/scenes
     std::filesystem::path volumeFolder;  ///< holds NAME.inr, \see demos/fetch.sh
+    std::filesystem::path meshFolder;    ///< holds NAME.off, the same
     bool quick = false;                  ///< pictures of half the edge, coarser surroundings
     int timingRepeats = 5;
     Progress progress{};

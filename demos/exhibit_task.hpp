@@ -36,6 +36,9 @@ const std::vector<NamedExhibit>& environmentExhibits();
 const std::vector<NamedExhibit>& bumpExhibits();
 const std::vector<NamedExhibit>& sceneExhibits();
 
+/// shadow_exhibits.cpp
+Exhibit shadowStudyExhibit(const Task& task);
+
 /// environment_sweeps.cpp
 Exhibit ggxSweepExhibit(const Task& task);
 Exhibit sunExhibit(const Task& task);

@@ -1,5 +1,6 @@
 #!/bin/sh
-# Fetches the gallery's meshes, surroundings, height fields and volumes from Debian packages without installing them:
+# Fetches the gallery's meshes, surroundings, height fields, volumes and animated meshes from Debian packages without
+# installing them, and a rigged hand from npm where npm is:
 # demos/fetch.sh [DIR], default build/data. Keeps what is there; exit 1 with one line for each package that can't be had
 # (the gallery then uses its built-in meshes and a made-up sky).
 set -eu
@@ -32,7 +33,7 @@ complain() {
   failed=1
 }
 
-mkdir -p "$data/meshes" "$data/world" "$data/heights" "$data/volumes"
+mkdir -p "$data/meshes" "$data/world" "$data/heights" "$data/volumes" "$data/animated/chess"
 work=$(mktemp -d "$data/fetch.XXXXXX")
 trap 'rm -rf "$work"' EXIT
 chmod 755 "$work" # apt's own user writes here when root downloads
@@ -88,6 +89,48 @@ if [ -n "$wanted" ] && download libvolpack1-dev '0.7 MB' 'scan of a head'; then
     mv "$work/$file" "$data/volumes/brainsmall.den"
   else
     complain "libvolpack1-dev holds no $file"
+  fi
+fi
+
+wanted="$(missing animated .X Testwuson BCN_Epileptic)$(missing animated .iqm mrfixit)$(missing animated .md2 faerie sydney)"
+if [ -n "$wanted" ] && download assimp-testmodels '21 MB' 'animated meshes'; then
+  for name in $wanted; do
+    case $name in
+    mrfixit) file=IQM/$name.iqm ;;
+    faerie | sydney) file=MD2/$name.md2 ;;
+    *) file=X/$name.X ;;
+    esac
+    from=usr/share/assimp/models/$file
+    if dpkg-deb --fsys-tarfile "$work"/assimp-testmodels_*.deb | tar -x -C "$work" -f - "./$from"; then
+      mv "$work/$from" "$data/animated/${file#*/}"
+    else
+      complain "assimp-testmodels holds no $from"
+    fi
+  done
+fi
+
+wanted=$(missing animated/chess .obj king queen rook bishop knight pawn)
+if [ -n "$wanted" ] && download brutalchess '0.5 MB' 'chess pieces'; then
+  folder=usr/share/games/brutalchess/models
+  for piece in $wanted; do
+    if dpkg-deb --fsys-tarfile "$work"/brutalchess_*.deb | tar -x -C "$work" -f - "./$folder/$piece.obj"; then
+      mv "$work/$folder/$piece.obj" "$data/animated/chess/$piece.obj"
+    else
+      complain "brutalchess holds no $folder/$piece.obj"
+    fi
+  done
+fi
+
+# A rigged hand: 94 MB of controllers and hands, one file of which is kept. Nothing is amiss without npm.
+wanted=$(missing animated .glb hand)
+if [ -n "$wanted" ] && command -v npm >/dev/null; then
+  echo 'demos/fetch.sh: fetching @webxr-input-profiles/assets (94 MB) from npm for its hand' >&2
+  file=package/dist/profiles/generic-hand/left.glb
+  if (cd "$work" && npm pack --silent @webxr-input-profiles/assets@1.0.20 >log 2>&1) &&
+    tar -x -z -C "$work" -f "$work"/webxr-input-profiles-assets-*.tgz "$file"; then
+    mv "$work/$file" "$data/animated/hand.glb"
+  else
+    complain "'npm pack @webxr-input-profiles/assets' gave no $file"
   fi
 fi
 exit $failed

@@ -27,6 +27,7 @@ article { background: var(--card); border: 1px solid var(--line); border-radius:
   margin: .8rem 0; }
 figure { margin: 0; min-width: 0; }
 .pair { display: grid; gap: .8rem; align-content: start; min-width: 0; }
+.pair:only-child { grid-template-columns: repeat(auto-fit, minmax(min(15rem, 100%), 1fr)); }
 figure img { display: block; width: 100%; height: auto; border-radius: 6px; background: #777; }
 figcaption { margin-top: .3rem; }
 .scale { height: .7rem; border-radius: 3px; border: 1px solid var(--line); margin-top: .35rem; }

@@ -196,7 +196,8 @@ Exhibit volume(const Task& task) {
 }  // namespace
 
 const std::vector<NamedExhibit>& sceneExhibits() {
-    static const std::vector<NamedExhibit> all = {{"scene-composed", composed}, {"volume-surface", volume}};
+    static const std::vector<NamedExhibit> all = {
+        {"shadow-study", shadowStudyExhibit}, {"scene-composed", composed}, {"volume-surface", volume}};
     return all;
 }
 

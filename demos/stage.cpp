@@ -20,16 +20,6 @@ void move(Mesh& mesh, const glm::mat4& motion) {
     for (glm::vec4& t : mesh.tangents) t = glm::vec4(turn * glm::vec3(t), t.w);
 }
 
-Mesh joined(Mesh a, const Mesh& b) {
-    const unsigned first = static_cast<unsigned>(a.positions.size());
-    a.positions.insert(a.positions.end(), b.positions.begin(), b.positions.end());
-    a.normals.insert(a.normals.end(), b.normals.begin(), b.normals.end());
-    a.tangents.insert(a.tangents.end(), b.tangents.begin(), b.tangents.end());
-    a.uvs.insert(a.uvs.end(), b.uvs.begin(), b.uvs.end());
-    for (const glm::uvec3& t : b.triangles) a.triangles.push_back(t + first);
-    return a;
-}
-
 /// Tangents along `direction`, projected into the surface; where the normal is parallel to it, the old one stays.
 void combTangents(Mesh& mesh, const glm::vec3& direction) {
     for (std::size_t i = 0; i < mesh.normals.size(); ++i) {
@@ -76,6 +66,16 @@ std::string scanNames() {
 }
 
 }  // namespace
+
+Mesh joined(Mesh a, const Mesh& b) {
+    const unsigned first = static_cast<unsigned>(a.positions.size());
+    a.positions.insert(a.positions.end(), b.positions.begin(), b.positions.end());
+    a.normals.insert(a.normals.end(), b.normals.begin(), b.normals.end());
+    a.tangents.insert(a.tangents.end(), b.tangents.begin(), b.tangents.end());
+    a.uvs.insert(a.uvs.end(), b.uvs.begin(), b.uvs.end());
+    for (const glm::uvec3& t : b.triangles) a.triangles.push_back(t + first);
+    return a;
+}
 
 Vec3 directionFromDeg(double azimuthDeg, double elevationDeg) {
     const double az = azimuthDeg * kPi / 180, el = elevationDeg * kPi / 180;

@@ -36,6 +36,9 @@ Stage teapotStage(double azimuthDeg);
 /// \throws std::invalid_argument for other names (lists them); nacre::Error when the file is there but broken
 Stage scanStage(const std::string& name, const std::filesystem::path& folder);
 
+/// b's triangles after a's.
+Mesh joined(Mesh a, const Mesh& b);
+
 /// By name: torus, disk-sphere-circular, disk-sphere-radial, teapot-left, teapot-right, scan:NAME.
 /// \throws std::invalid_argument for other names (lists them), and as scanStage
 Stage openStage(const std::string& name, const std::filesystem::path& meshFolder);

@@ -22,6 +22,7 @@ std::string clipName(std::span<const std::uint8_t> text) {
     std::string out;
     for (std::size_t i = 0; i < text.size() && text[i] != 0; ++i) out += static_cast<char>(text[i]);
     for (int i = 0; i < 2 && !out.empty() && std::isdigit(static_cast<unsigned char>(out.back())); ++i) out.pop_back();
+    while (!out.empty() && out.back() == '0') out.pop_back();  // of three digits: run001
     return out;
 }
 

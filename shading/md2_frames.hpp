@@ -8,7 +8,8 @@
 
 namespace nacre {
 
-/// Frames one after the other whose names differ in their last one or two digits alone.
+/// Frames one after the other whose names differ in their last one or two digits alone (zeros before them are no
+/// part of the name).
 struct Md2Clip {
     std::string name;
     std::size_t first = 0, count = 0;

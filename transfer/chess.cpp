@@ -14,7 +14,7 @@ namespace {
 
 constexpr double kPly = 1.5, kMoveTime = 1.0;  // from move to move, and of one [s]
 constexpr double kBase = 0.8;                  // widest base of the set, in squares
-constexpr double kBoardEdge = 12;              // with the margin that receives shadows and the queen
+constexpr double kBoardEdge = 10;              // with the margin that receives shadows and the queen
 constexpr double kGap = 0.01;                  // below a piece: blockers apart from what they shade
 constexpr double kLift = 0.7, kKnightLift = 1.8;
 
@@ -39,9 +39,9 @@ struct Move {
 Vec3 squareAt(const std::string& name) { return {name[0] - 'a' - 3.5, kGap, 3.5 - (name[1] - '1')}; }
 
 std::vector<Move> moves() {
-    return {{kKnight, 0, squareAt("f7")},    {kBlackKing, 1, squareAt("g8")}, {kKnight, 2, squareAt("h6")},
-            {kBlackKing, 3, squareAt("h8")}, {kQueen, 4, squareAt("g8")},     {kRook, 5, squareAt("g8")},
-            {kQueen, 5, Vec3(5, kGap, -2)},  {kKnight, 6, squareAt("f7")}};
+    return {{kKnight, 0, squareAt("f7")},      {kBlackKing, 1, squareAt("g8")}, {kKnight, 2, squareAt("h6")},
+            {kBlackKing, 3, squareAt("h8")},   {kQueen, 4, squareAt("g8")},     {kRook, 5, squareAt("g8")},
+            {kQueen, 5, Vec3(4.55, kGap, -2)}, {kKnight, 6, squareAt("f7")}};
 }
 
 /// Cubic Bézier curve with one control point straight above each end, slow at both.

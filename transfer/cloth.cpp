@@ -72,12 +72,12 @@ public:
           breeze_(options.breeze, options.seed),
           places_(grid.frames[0].begin(), grid.frames[0].end()),
           velocities_(places_.size(), Vec3(0)) {
-        link(1, 0, 1);
-        link(0, 1, 1);
         link(1, 1, kShear);
         link(-1, 1, kShear);
         link(2, 0, kBend);
         link(0, 2, kBend);
+        link(1, 0, 1);  // edges come last: what the others do to them is put right
+        link(0, 1, 1);
     }
 
     void step(double h, double time) {

@@ -11,7 +11,7 @@ struct ClothOptions {
     int floorVertices = 17;  ///< along an edge, ≥ 2
     int frames = 300;
     double framesPerSecond = 30;
-    int stepsPerFrame = 20;    ///< of the simulation; fewer stretch the cloth more, but none is unstable
+    int stepsPerFrame = 40;    ///< of the simulation; fewer stretch the cloth more, but none is unstable
     std::uint64_t seed = 1;    ///< of the breeze's gusts
     double breeze = 1.5;       ///< mean speed of the wind [m/s]; 0: none
     double clothEdge = 2;      ///< length of the cloth's edges [m]

@@ -49,6 +49,7 @@ double harmonic(int l, int m, const Vec3& d) {
 /// The best-conditioned of 300 sets of random directions, by the worst band; deterministic.
 HarmonicRotation::HarmonicRotation(int order) : order_(order) {
     require(order >= 0 && order <= kMaxTransferOrder, "transfer: expected an order of 0 to 6");
+    scales_ = scalesOf(order);
     const int count = 2 * order + 1;
     std::mt19937 random(1);
     const auto uniform = [&] { return static_cast<double>(random()) / 4294967296.0; };  // std's distributions differ between libraries
@@ -83,26 +84,18 @@ HarmonicRotation::HarmonicRotation(int order) : order_(order) {
 }
 
 void HarmonicRotation::turn(const Receiver* receivers, std::size_t count, const float* local, float* world) const {
-    const std::vector<float> scales = scalesOf(order_);
     const std::size_t size = static_cast<std::size_t>((order_ + 1) * (order_ + 1));
     constexpr std::size_t kMost = static_cast<std::size_t>((kMaxTransferOrder + 1) * (kMaxTransferOrder + 1)) * kLanes;
-    alignas(64) float frames[9 * kLanes], in[kMost], out[kMost];
-    for (std::size_t first = 0; first < count; first += kLanes) {
-        const std::size_t used = std::min<std::size_t>(kLanes, count - first);
-        for (std::size_t i = 0; i < kLanes; ++i) {
-            const std::size_t from = first + std::min(i, used - 1);
-            const Receiver& r = receivers[from];
-            for (int k = 0; k < 3; ++k) {
-                frames[static_cast<std::size_t>(k) * kLanes + i] = r.tangent[k];
-                frames[static_cast<std::size_t>(3 + k) * kLanes + i] = r.bitangent[k];
-                frames[static_cast<std::size_t>(6 + k) * kLanes + i] = r.normal[k];
-            }
-            for (std::size_t c = 0; c < size; ++c) in[c * kLanes + i] = local[from * size + c];
+    alignas(64) float frames[9 * kLanes] = {}, turned[kMost];
+    for (std::size_t i = 0; i < count; ++i)
+        for (int k = 0; k < 3; ++k) {
+            frames[static_cast<std::size_t>(k) * kLanes + i] = receivers[i].tangent[k];
+            frames[static_cast<std::size_t>(3 + k) * kLanes + i] = receivers[i].bitangent[k];
+            frames[static_cast<std::size_t>(6 + k) * kLanes + i] = receivers[i].normal[k];
         }
-        kTurns[static_cast<std::size_t>(order_)](scales.data(), directions_.data(), weights_.data(), frames, in, out);
-        for (std::size_t i = 0; i < used; ++i)
-            for (std::size_t c = 0; c < size; ++c) world[(first + i) * size + c] = out[c * kLanes + i];
-    }
+    kTurns[static_cast<std::size_t>(order_)](scales_.data(), directions_.data(), weights_.data(), frames, local, turned);
+    for (std::size_t i = 0; i < count; ++i)
+        for (std::size_t c = 0; c < size; ++c) world[i * size + c] = turned[c * kLanes + i];
 }
 
 }  // namespace nacre

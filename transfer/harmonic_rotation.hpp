@@ -16,14 +16,15 @@ public:
     explicit HarmonicRotation(int order);
 
     /// f'(R s) = f(s), R's columns tangent, bitangent, normal; float, 1e-6 of the largest coefficient.
-    /// \param local  [i (order + 1)² …] in the frame of receivers[i], in envmaps' order l² + l + m
-    /// \param world  likewise; may not overlap
+    /// \param local  [(order + 1)²][16] in the frame of receivers[lane], in envmaps' order l² + l + m
+    /// \param count  receivers, 1 to 16 \param world  [count][(order + 1)²]
     void turn(const Receiver* receivers, std::size_t count, const float* local, float* world) const;
 
     int order() const { return order_; }
 
 private:
     int order_;
+    std::vector<float> scales_;      ///< of y_lm
     std::vector<float> directions_;  ///< [3] a direction
     std::vector<float> weights_;     ///< [coefficient l² + l + m][direction]
 };

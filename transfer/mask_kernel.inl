@@ -1,122 +1,5 @@
 // The arithmetic of mask_kernel.hpp; core/wide.inl says where this is compiled.
-typedef std::uint32_t Bits __attribute__((vector_size(4 * kWide)));
-typedef std::int16_t Shorts __attribute__((vector_size(2 * kWide)));
-
-NACRE_INLINE Floats splat(float x) { return Floats{} + x; }
-NACRE_INLINE Floats choose(const Mask& m, const Floats& a, const Floats& b) { return m ? a : b; }
-NACRE_INLINE Floats absolute(const Floats& v) { return v < Floats{} ? -v : v; }
-/// Towards zero.
-NACRE_INLINE Mask whole(const Floats& v) { return __builtin_convertvector(v, Mask); }
-template <class V>
-NACRE_INLINE void store(void* to, const V& v) {
-    std::memcpy(to, &v, sizeof(v));
-}
-
-/// Ones from bit `count` on; none from 32 on. \param count  ≥ 0
-NACRE_INLINE Bits onesFrom(const Mask& count) {
-#if NACRE_SET == 512
-    __m512i c;
-    std::memcpy(&c, &count, sizeof(c));
-    c = _mm512_sllv_epi32(_mm512_set1_epi32(-1), c);
-    Bits bits;
-    std::memcpy(&bits, &c, sizeof(c));
-    return bits;
-#elif NACRE_SET == 2
-    __m256i c[2];
-    std::memcpy(c, &count, sizeof(c));
-    for (__m256i& half : c) half = _mm256_sllv_epi32(_mm256_set1_epi32(-1), half);
-    Bits bits;
-    std::memcpy(&bits, c, sizeof(c));
-    return bits;
-#else
-    const Bits c = reinterpret_cast<const Bits&>(count);
-    return reinterpret_cast<const Bits&>(static_cast<const Mask&>(count < 32)) & (~Bits{} << (c & 31));
-#endif
-}
-
-/// The lanes' signs as bits.
-NACRE_INLINE unsigned lanes(const Mask& m) {
-#if NACRE_SET == 512
-    __m512i v;
-    std::memcpy(&v, &m, sizeof(v));
-    return _mm512_movepi32_mask(v);
-#elif NACRE_SET == 2
-    __m256 v[2];
-    std::memcpy(v, &m, sizeof(v));
-    return static_cast<unsigned>(_mm256_movemask_ps(v[0])) | static_cast<unsigned>(_mm256_movemask_ps(v[1])) << 8;
-#else
-    unsigned bits = 0;
-    for (int i = 0; i < kWide; ++i) bits |= static_cast<unsigned>(m[i] < 0) << i;
-    return bits;
-#endif
-}
-
-/// Appends first, first + 1, … of the lanes in `bits`. \return the new count
-NACRE_INLINE int append(std::uint32_t* out, int count, std::uint32_t first, unsigned bits) {
-#if NACRE_SET == 512
-    const __m512i all = _mm512_add_epi32(_mm512_set1_epi32(static_cast<int>(first)),
-                                         _mm512_setr_epi32(0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15));
-    _mm512_storeu_si512(out + count, _mm512_maskz_compress_epi32(static_cast<__mmask16>(bits), all));
-    return count + __builtin_popcount(bits);
-#else
-    for (; bits; bits &= bits - 1) out[count++] = first + static_cast<unsigned>(__builtin_ctz(bits));
-    return count;
-#endif
-}
-
-/// The nine coordinates of sixteen triangles.
-NACRE_INLINE void gather(const float* byTriangle, const std::uint32_t* indices, Floats* v) {
-#if NACRE_SET == 512
-    const float* from[16];
-    for (int k = 0; k < 16; ++k) from[k] = byTriangle + 12 * std::size_t{indices[k]};
-    for (int part = 0; part < 3; ++part) {  // four numbers of each: rows of four quarters, then turned within quarters
-        __m512 z[4];
-        for (int k = 0; k < 4; ++k) {
-            z[k] = _mm512_castps128_ps512(_mm_loadu_ps(from[k] + 4 * part));
-            z[k] = _mm512_insertf32x4(z[k], _mm_loadu_ps(from[k + 4] + 4 * part), 1);
-            z[k] = _mm512_insertf32x4(z[k], _mm_loadu_ps(from[k + 8] + 4 * part), 2);
-            z[k] = _mm512_insertf32x4(z[k], _mm_loadu_ps(from[k + 12] + 4 * part), 3);
-        }
-        const __m512d low01 = _mm512_castps_pd(_mm512_unpacklo_ps(z[0], z[1]));
-        const __m512d high01 = _mm512_castps_pd(_mm512_unpackhi_ps(z[0], z[1]));
-        const __m512d low23 = _mm512_castps_pd(_mm512_unpacklo_ps(z[2], z[3]));
-        const __m512d high23 = _mm512_castps_pd(_mm512_unpackhi_ps(z[2], z[3]));
-        const __m512d turned[4] = {_mm512_unpacklo_pd(low01, low23), _mm512_unpackhi_pd(low01, low23),
-                                   _mm512_unpacklo_pd(high01, high23), _mm512_unpackhi_pd(high01, high23)};
-        for (int c = 0; c < 4 && 4 * part + c < 9; ++c) std::memcpy(&v[4 * part + c], &turned[c], sizeof(Floats));
-    }
-#else
-    for (int k = 0; k < kWide; ++k)
-        for (int c = 0; c < 9; ++c) v[c][k] = byTriangle[12 * std::size_t{indices[k]} + static_cast<std::size_t>(c)];
-#endif
-}
-
-struct Columns {
-    Floats x, y, z;
-};
-NACRE_INLINE Floats dot(const glm::vec3& a, const Columns& b) { return splat(a.x) * b.x + splat(a.y) * b.y + splat(a.z) * b.z; }
-
-int cull(const BlockerList& list, const Receiver& receiver, float above, bool bothSides, std::uint32_t* out) {
-    const glm::vec3& p = receiver.point;
-    const glm::vec3& n = receiver.normal;
-    const Floats height = splat(n.x * p.x + n.y * p.y + n.z * p.z + above);
-    int count = 0;
-    for (std::size_t i = 0; i < list.count; i += kWide) {
-        Floats highest{};
-        for (int c = 0; c < 3; ++c) {
-            const std::vector<float>* xyz = list.corners + 3 * c;
-            const Floats z = dot(n, {load(&xyz[0][i]), load(&xyz[1][i]), load(&xyz[2][i])});
-            highest = c == 0 ? z : larger(highest, z);
-        }
-        Mask keep = highest > height;
-        if (!bothSides)
-            keep &= dot(p, {load(&list.plane[0][i]), load(&list.plane[1][i]), load(&list.plane[2][i])}) > load(&list.plane[3][i]);
-        const std::size_t left = list.count - i;
-        const unsigned used = left >= kWide ? 0xffffu : (1u << left) - 1;
-        count = append(out, count, static_cast<std::uint32_t>(i), lanes(keep) & used);
-    }
-    return count;
-}
+#include "transfer/vector_parts.inl"
 
 /// atan2(y, x) in rows of N; 1e-5 rad off at most (Abramowitz & Stegun 4.4.49).
 template <int N>
@@ -161,15 +44,14 @@ struct Edges {
 };
 
 template <int N>
-NACRE_INLINE void findEdges(const float* byTriangle, const Receiver& receiver, bool bothSides, const std::uint32_t* indices,
+NACRE_INLINE void findEdges(const BlockerRow* blockers, const Receiver& receiver, bool bothSides, const std::uint32_t* indices,
                             unsigned used, Edges& edges) {
     Floats v[9];
-    gather(byTriangle, indices, v);
+    gather<9>(blockers, indices, v);
     const Floats zero{}, big = splat(1e30f);
     Columns corner[3], edge[3];
     for (int c = 0; c < 3; ++c) {
-        const Columns d = {v[3 * c] - splat(receiver.point.x), v[3 * c + 1] - splat(receiver.point.y),
-                           v[3 * c + 2] - splat(receiver.point.z)};
+        const Columns d = Columns{v[3 * c], v[3 * c + 1], v[3 * c + 2]} - receiver.point;
         corner[c] = {dot(receiver.tangent, d), dot(receiver.bitangent, d), dot(receiver.normal, d)};
     }
     for (int e = 0; e < 3; ++e) {  // the plane through the eye and an edge; a shared edge gives its negative exactly
@@ -234,16 +116,16 @@ NACRE_INLINE void findEdges(const float* byTriangle, const Receiver& receiver, b
 }
 
 template <int N>
-void draw(const MaskRows& rows, const float* byTriangle, const Receiver& receiver, bool bothSides, std::uint32_t* indices,
-          int count, std::uint32_t* mask) {
+void draw(const MaskRows& rows, const BlockerRow* blockers, const Receiver& receiver, bool bothSides, std::uint32_t* indices,
+          std::size_t count, std::uint32_t* mask) {
     constexpr int kWords = (N + 31) / 32, kBlocks = N / kWide;
     Bits bits[kWords][kBlocks];
     std::memcpy(bits, mask, sizeof(bits));
     const Floats zero{};
     Edges edges;
-    for (int k = count; k % kWide; ++k) indices[k] = indices[count - 1];
-    for (int i = 0; i < count; i += kWide) {
-        findEdges<N>(byTriangle, receiver, bothSides, indices + i, count - i >= kWide ? 0xffffu : (1u << (count - i)) - 1,
+    for (std::size_t k = count; k % kWide; ++k) indices[k] = indices[count - 1];
+    for (std::size_t i = 0; i < count; i += kWide) {
+        findEdges<N>(blockers, receiver, bothSides, indices + i, count - i >= kWide ? 0xffffu : (1u << (count - i)) - 1,
                      edges);
         for (unsigned left = edges.narrow; left; left &= left - 1) {
             const int lane = __builtin_ctz(left);
@@ -281,24 +163,25 @@ void draw(const MaskRows& rows, const float* byTriangle, const Receiver& receive
 
 template <int N>
 void integrate(const MaskIntegrals& tables, const std::uint32_t* mask, float* sums) {
-    constexpr int kWords = (N + 31) / 32, kBytes = N < 32 ? N / 8 : 4;
-    const std::size_t lanesOf = static_cast<std::size_t>(tables.groups) * kWide;
-    for (int group = 0; group < tables.groups; ++group) {
+    constexpr std::size_t kWords = (N + 31) / 32, kFours = N < 32 ? N / 4 : 8;
+    const std::size_t stride = static_cast<std::size_t>(tables.groups) * kWide;
+    for (std::size_t group = 0; group < static_cast<std::size_t>(tables.groups); ++group) {
+        const std::int16_t* fours = tables.fours.data() + group * kWide;
         Floats cosines{}, sines{};
         for (std::size_t r = 0; r < N; ++r) {
             Floats row{};
             for (std::size_t w = 0; w < kWords; ++w) {
                 std::uint32_t word = mask[w * N + r];
                 Shorts sum{};
-                for (std::size_t byte = 0; byte < kBytes; ++byte, word >>= 8) {
+                for (std::size_t four = 0; four < kFours; ++four, word >>= 4) {
                     Shorts part;
-                    std::memcpy(&part, &tables.bytes[((w * 4 + byte) * 256 + (word & 255)) * lanesOf + group * kWide], sizeof(part));
+                    std::memcpy(&part, fours + ((w * 8 + four) * 16 + (word & 15)) * stride, sizeof(part));
                     sum += part;
                 }
                 row += __builtin_convertvector(sum, Floats);
             }
-            cosines += row * load(&tables.rowCos[r * lanesOf + group * kWide]);
-            sines += row * load(&tables.rowSin[r * lanesOf + group * kWide]);
+            cosines += row * load(&tables.rowCos[r * stride + group * kWide]);
+            sines += row * load(&tables.rowSin[r * stride + group * kWide]);
         }
         store(sums + 2 * kWide * group, cosines);
         store(sums + 2 * kWide * group + kWide, sines);

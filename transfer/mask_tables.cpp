@@ -74,7 +74,7 @@ std::shared_ptr<const MaskIntegrals> maskIntegrals(int size, int order) {
     const int pairs = (order + 1) * (order + 2) / 2;
     out->groups = (pairs + kLanes - 1) / kLanes;
     const std::size_t lanes = static_cast<std::size_t>(out->groups) * kLanes;
-    out->bytes.assign(static_cast<std::size_t>(size / 8) * 256 * lanes, 0);
+    out->fours.assign(static_cast<std::size_t>(size / 4) * 16 * lanes, 0);
     out->rowCos.assign(static_cast<std::size_t>(size) * lanes, 0);
     out->rowSin = out->rowCos;
     std::size_t pair = 0;
@@ -87,12 +87,12 @@ std::shared_ptr<const MaskIntegrals> maskIntegrals(int size, int order) {
                     const double u = (k + (q + 0.5) / kPoints) / size;
                     step[static_cast<std::size_t>(k)] += harmonicOfHeight(l, m, std::sqrt(1 - u)) / kPoints;
                 }
-            for (std::size_t byte = 0; byte < static_cast<std::size_t>(size / 8); ++byte)
-                for (std::size_t value = 0; value < 256; ++value) {
+            for (std::size_t four = 0; four < static_cast<std::size_t>(size / 4); ++four)
+                for (std::size_t value = 0; value < 16; ++value) {
                     double sum = 0;
-                    for (std::size_t bit = 0; bit < 8; ++bit)
-                        if (value >> bit & 1) sum += step[byte * 8 + bit];
-                    out->bytes[(byte * 256 + value) * lanes + pair] =
+                    for (std::size_t bit = 0; bit < 4; ++bit)
+                        if (value >> bit & 1) sum += step[four * 4 + bit];
+                    out->fours[(four * 16 + value) * lanes + pair] =
                         static_cast<std::int16_t>(std::lround(sum * kIntegralScale));
                 }
             const double half = m * kPi / size;

@@ -31,15 +31,15 @@ struct MaskRows {
     std::vector<Window> windows;  ///< one a row
 };
 
-/// What a mask's bits integrate to: for each row Σ over set bits of the mean of K_lm P_lm over the bit's step, by bytes,
+/// What a mask's bits integrate to: for each row Σ over set bits of the mean of K_lm P_lm over the bit's step, by four bits,
 /// and the mean of cos mφ and sin mφ over the row's azimuths.
 struct MaskIntegrals {
     int order = 4;
     int groups = 1;                      ///< of 16 pairs (l, m ≥ 0): pair l(l + 1)/2 + m
-    std::vector<std::int16_t> bytes;     ///< [N/8][256][16 groups], times kIntegralScale
+    std::vector<std::int16_t> fours;     ///< [N/4][16][16 groups], times kIntegralScale: few, they stay in the cache
     std::vector<float> rowCos, rowSin;   ///< [N][16 groups], divided by kIntegralScale and N²
 };
-inline constexpr double kIntegralScale = 512;  ///< four bytes of one row stay below 32768
+inline constexpr double kIntegralScale = 512;  ///< 32 bits of one row stay below 32768
 
 /// \param size  N: 16, 32, 64 or 128 \throws std::invalid_argument
 std::shared_ptr<const MaskRows> maskRows(int size);

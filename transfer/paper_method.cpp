@@ -7,6 +7,7 @@
 #include "core/error.hpp"
 #include "core/math.hpp"
 #include "core/parallel.hpp"
+#include "transfer/blocker_kernel.hpp"
 #include "transfer/plane_table.hpp"
 #include "transfer/receiver_groups.hpp"
 
@@ -15,7 +16,7 @@ namespace {
 
 constexpr int kOrder = 4;
 constexpr std::size_t kCoefficients = 25;
-constexpr std::size_t kTask = 256;  ///< vertices that one copy of the coarse mesh serves
+constexpr std::size_t kTask = 256;  ///< vertices
 
 /// Of this thread: what waits for a processor isn't work.
 double now() {
@@ -78,9 +79,39 @@ struct TaskResult {
     TransferSeconds seconds;
 };
 
-void addTriangle(const glm::uvec3& t, std::span<const glm::vec3> positions, const glm::vec3& centre,
-                 BlockerList& list) {
-    list.add(positions[t.x] - centre, positions[t.y] - centre, positions[t.z] - centre);
+/// One frame's blockers: rows of the coarse mesh, then of the mesh; the coarse ones by columns too.
+struct BlockersNow {
+    std::vector<BlockerRow> rows;
+    ListedBlockers coarse;
+};
+
+void addRows(std::span<const glm::uvec3> triangles, std::span<const glm::vec3> positions,
+             std::vector<BlockerRow>& rows) {
+    for (const glm::uvec3& t : triangles) rows.push_back(blockerRow(positions[t.x], positions[t.y], positions[t.z]));
+}
+
+ListedBlockers columnsOf(std::span<const BlockerRow> rows) {
+    ListedBlockers out;
+    out.count = rows.size();
+    const std::size_t padded = (rows.size() + kLanes - 1) / kLanes * kLanes;
+    out.index.resize(padded);
+    for (std::vector<float>& column : out.columns) column.resize(padded);
+    for (std::size_t t = 0; t < rows.size(); ++t) {
+        out.index[t] = static_cast<std::uint32_t>(t);
+        for (std::size_t k = 0; k < 9; ++k) out.columns[k][t] = rows[t].corners[k];
+        for (std::size_t k = 0; k < 3; ++k) out.columns[9 + k][t] = rows[t].normal[k];
+        out.columns[12][t] = rows[t].offset;
+    }
+    return out;
+}
+
+/// BlockerKernel::cull of one.
+bool blocks(const BlockerRow& row, const Receiver& receiver, bool bothSides) {
+    const glm::vec3 &p = receiver.point, &n = receiver.normal;
+    if (!bothSides && row.normal[0] * p.x + row.normal[1] * p.y + row.normal[2] * p.z <= row.offset) return false;
+    const float* c = row.corners;
+    const auto height = [&](int k) { return n.x * c[k] + n.y * c[k + 1] + n.z * c[k + 2]; };
+    return std::max({height(0), height(3), height(6)}) > glm::dot(n, p);
 }
 
 }  // namespace
@@ -90,18 +121,20 @@ struct PaperMethod::State {
     PaperMethodOptions options;
     CornersOfVertices corners;
     std::vector<glm::uvec3> coarse;
-    std::vector<std::uint32_t> vertices;           ///< in order of work
-    std::vector<std::vector<std::uint32_t>> near;  ///< [vertex] triangles of the mesh
+    std::vector<std::uint32_t> coarseOf;               ///< of each vertex: the coarse triangle that stands for it
+    std::vector<std::uint32_t> vertices;               ///< in order of work
+    std::vector<std::vector<std::uint32_t>> near;      ///< [vertex] triangles of the mesh
+    std::vector<std::vector<std::uint32_t>> replaced;  ///< [vertex] coarse triangles that those stand in for
     std::size_t mostNear = 0;
     std::shared_ptr<const PlaneTable> table;
-    MaskKernel culling = maskKernel(kDiskSize);
+    BlockerKernel culling = blockerKernel();
     DiskKernel kernel = diskKernel();
     Integral integral;
     HarmonicRotation rotation{kOrder};
 
     State(WeldedMesh m, std::span<const glm::vec3> rest, const PaperMethodOptions& o);
     void findNear();
-    TaskResult computeTask(std::span<const std::uint32_t> of, const BlockerList& coarseList, const glm::vec3& centre,
+    TaskResult computeTask(std::span<const std::uint32_t> of, const BlockersNow& blockers,
                            std::span<const glm::vec3> positions, TransferFrame& frame) const;
 };
 
@@ -109,14 +142,17 @@ PaperMethod::State::State(WeldedMesh m, std::span<const glm::vec3> rest, const P
     : mesh(std::move(m)),
       options(o),
       corners(cornersOfVertices(mesh.triangles, mesh.vertexCount())),
-      coarse(makeBlockerLevels(mesh, rest, {o.coarse}).levels.back().triangles),
       near(mesh.vertexCount()),
+      replaced(mesh.vertexCount()),
       integral(integralOf(o.sampledBlocks)) {
     if (options.sides == BlockingSides::Auto) options.sides = mesh.closed ? BlockingSides::Front : BlockingSides::Both;
     if (options.table > 0) table = planeTable(options.table, options.threads);
     for (const std::vector<std::uint32_t>& group :
          groupReceivers(rest, vertexNormals(mesh.triangles, corners, rest), kLanes))
         vertices.insert(vertices.end(), group.begin(), group.end());
+    BlockerLevels::Level level = makeBlockerLevels(mesh, rest, {o.coarse}).levels.back();
+    coarse = std::move(level.triangles);
+    coarseOf = std::move(level.triangleOf);
     if (coarse.size() < mesh.triangles.size()) findNear();
 }
 
@@ -129,19 +165,22 @@ void PaperMethod::State::findNear() {
                     near[v].push_back(corners.order[i] / 3);
             std::sort(near[v].begin(), near[v].end());
             near[v].erase(std::unique(near[v].begin(), near[v].end()), near[v].end());
+            replaced[v].clear();
+            for (const std::uint32_t r : reached) replaced[v].push_back(coarseOf[r]);
             reached.clear();
             for (const std::uint32_t t : near[v])
                 for (int c = 0; c < 3; ++c) reached.push_back(mesh.triangles[t][c]);
             std::sort(reached.begin(), reached.end());
             reached.erase(std::unique(reached.begin(), reached.end()), reached.end());
         }
+        std::sort(replaced[v].begin(), replaced[v].end());
+        replaced[v].erase(std::unique(replaced[v].begin(), replaced[v].end()), replaced[v].end());
         mostNear = std::max(mostNear, near[v].size());
     }
 }
 
-TaskResult PaperMethod::State::computeTask(std::span<const std::uint32_t> of, const BlockerList& coarseList,
-                                           const glm::vec3& centre, std::span<const glm::vec3> positions,
-                                           TransferFrame& frame) const {
+TaskResult PaperMethod::State::computeTask(std::span<const std::uint32_t> of, const BlockersNow& blockers,
+                                           std::span<const glm::vec3> positions, TransferFrame& frame) const {
     TaskResult result;
     double before = now();  // read by the sixteen vertices, since that takes time too: culling counts as rasterization
     const auto lap = [&](double& seconds) {
@@ -149,31 +188,36 @@ TaskResult PaperMethod::State::computeTask(std::span<const std::uint32_t> of, co
         seconds += here - before;
         before = here;
     };
-    BlockerList list = coarseList;
     const bool bothSides = options.sides == BlockingSides::Both;
-    const std::size_t room = list.count + mostNear + 2 * kLanes;
-    std::vector<std::uint32_t> indices(room * kLanes);
+    std::vector<std::uint32_t> indices(blockers.coarse.count + mostNear + 2 * kLanes),
+        isReplaced(blockers.coarse.count, 0);
     for (std::size_t first = 0; first < of.size(); first += kLanes) {
         const std::size_t used = std::min<std::size_t>(kLanes, of.size() - first);
         Receiver receivers[kLanes];
         DiskMask masks[kLanes];
-        float local[kLanes * kCoefficients], world[kLanes * kCoefficients];
+        float local[kLanes * kCoefficients] = {}, world[kLanes * kCoefficients];
         for (std::size_t i = 0; i < used; ++i) {
             const std::uint32_t v = of[first + i];
-            receivers[i] = receiverAt(positions[v] - centre, frame.normals[v]);
-            list.count = coarseList.count;
-            for (const std::uint32_t t : near[v]) addTriangle(mesh.triangles[t], positions, centre, list);
-            const int count = culling.cull(list, receivers[i], 0, bothSides, indices.data());
-            result.listed += static_cast<double>(list.count);
+            receivers[i] = receiverAt(positions[v], frame.normals[v]);
+            const std::size_t all = culling.cull(blockers.coarse, receivers[i], bothSides, indices.data());
+            std::uint32_t* const end = indices.data() + all;
+            for (const std::uint32_t t : replaced[v]) isReplaced[t] = v + 1;
+            std::uint32_t* last =
+                std::remove_if(indices.data(), end, [&](std::uint32_t t) { return isReplaced[t] == v + 1; });
+            for (const std::uint32_t t : near[v])
+                if (blocks(blockers.rows[coarse.size() + t], receivers[i], bothSides))
+                    *last++ = static_cast<std::uint32_t>(coarse.size()) + t;
+            const auto count = static_cast<int>(last - indices.data());
+            result.listed += static_cast<double>(blockers.coarse.count - replaced[v].size() + near[v].size());
             result.drawn += count;
-            kernel.draw(table.get(), list.byTriangle.data(), receivers[i], bothSides, indices.data(), count, masks[i]);
+            kernel.draw(table.get(), blockers.rows.data(), receivers[i], bothSides, indices.data(), count, masks[i]);
         }
         lap(result.seconds.rasterization);
         for (std::size_t i = 0; i < used; ++i) {
             float hidden[2 * kLanes];
             kernel.integrate(integral.blocks, masks[i], hidden);
             for (std::size_t c = 0; c < kCoefficients; ++c)
-                local[i * kCoefficients + c] = static_cast<float>(integral.open[c]) - hidden[c];
+                local[c * kLanes + i] = static_cast<float>(integral.open[c]) - hidden[c];
         }
         rotation.turn(receivers, used, local, world);
         for (std::size_t i = 0; i < used; ++i)
@@ -197,21 +241,17 @@ std::size_t PaperMethod::coarseTriangles() const { return state_->coarse.size();
 TransferFrame PaperMethod::compute(std::span<const glm::vec3> positions) const {
     const State& s = *state_;
     require(positions.size() == s.mesh.vertexCount(), "paper's method: expected a position a vertex");
-    glm::vec3 low(1e30f), high(-1e30f);
-    for (const glm::vec3& p : positions) {
+    for (const glm::vec3& p : positions)
         require(std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z),
                 "paper's method: positions that are not finite");
-        low = glm::min(low, p);
-        high = glm::max(high, p);
-    }
     const double start = now();
     TransferFrame frame;
     frame.coefficients.assign(positions.size() * kCoefficients, 0);
     frame.normals = vertexNormals(s.mesh.triangles, s.corners, positions, s.options.threads);
-    const glm::vec3 centre = 0.5f * (low + high);
-    BlockerList coarse;
-    coarse.start(s.coarse.size() + s.mostNear);
-    for (const glm::uvec3& t : s.coarse) addTriangle(t, positions, centre, coarse);
+    BlockersNow blockers;
+    addRows(s.coarse, positions, blockers.rows);
+    blockers.coarse = columnsOf(blockers.rows);
+    if (s.mostNear > 0) addRows(s.mesh.triangles, positions, blockers.rows);
     std::vector<std::uint32_t> chosen;
     for (const std::uint32_t v : s.vertices)
         if (frame.normals[v] != glm::vec3(0)) chosen.push_back(v);
@@ -222,7 +262,7 @@ TransferFrame PaperMethod::compute(std::span<const glm::vec3> positions) const {
         const std::size_t first = task * kTask;
         const std::span<const std::uint32_t> all = chosen;
         results[task] =
-            s.computeTask(all.subspan(first, std::min(kTask, all.size() - first)), coarse, centre, positions, frame);
+            s.computeTask(all.subspan(first, std::min(kTask, all.size() - first)), blockers, positions, frame);
     });
     for (const TaskResult& r : results) {
         frame.listed += r.listed / static_cast<double>(frame.computed);

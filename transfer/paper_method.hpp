@@ -20,10 +20,11 @@ struct PaperMethodOptions {
 };
 
 /// Transfer vectors as SelfTransfer's, of order 4, by HEMI sections 3.1 and 3.2: for each vertex a list of its own, the
-/// coarse mesh everywhere and the mesh's triangles within the rings; culled by facing and horizon; masks of 32 × 32
-/// bits in the disk from a table of planes; 8 × 8 blocks integrated. Where HEMI leaves the choice, the fast one: the
-/// same vectors and rotation of harmonics as SelfTransfer, vertices in the order of groupReceivers for the caches, no
-/// clipping at the horizon (plane_table.hpp). The coarse mesh is BlockerLevels' last, without its push.
+/// mesh's triangles within the rings, and the coarse mesh but for what stands for the vertices whose triangles those
+/// are ("the remaining parts"; with all of it the error is up to five times as large); culled by facing and horizon;
+/// masks of 32 × 32 bits in the disk from a table of planes; 8 × 8 blocks integrated. Where HEMI leaves the choice, the
+/// fast one: the same vectors and rotation of harmonics as SelfTransfer, vertices in the order of groupReceivers for
+/// the caches, no clipping at the horizon (plane_table.hpp). The coarse mesh is BlockerLevels' last, without its push.
 class PaperMethod {
 public:
     /// \param rest  as SelfTransfer's \throws std::invalid_argument for options out of range

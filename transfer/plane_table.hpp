@@ -50,8 +50,8 @@ struct DiskKernel {
     /// Sets the bits of `count` triangles as seen from the receiver; those that face away are left out unless
     /// bothSides. A triangle that crosses the horizon needs no clipping: no direction of the mask lies below it.
     /// \param table  null: the planes themselves, three dot products a bit
-    /// \param indices  into byTriangle [12 numbers each]; room for 15 more behind
-    void (*draw)(const PlaneTable* table, const float* byTriangle, const Receiver& receiver, bool bothSides,
+    /// \param indices  into blockers; room for 15 more behind
+    void (*draw)(const PlaneTable* table, const BlockerRow* blockers, const Receiver& receiver, bool bothSides,
                  std::uint32_t* indices, int count, DiskMask& mask);
     /// Σ over the blocks of their set bits' number times perBit, to `sums` [32].
     void (*integrate)(const DiskIntegrals& integrals, const DiskMask& mask, float* sums);

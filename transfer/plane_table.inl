@@ -1,9 +1,6 @@
 // The arithmetic of plane_table.hpp; core/wide.inl says where this is compiled.
-typedef std::uint32_t Bits __attribute__((vector_size(4 * kWide)));
+#include "transfer/vector_parts.inl"
 
-NACRE_INLINE Floats splat(float x) { return Floats{} + x; }
-NACRE_INLINE Floats choose(const Mask& m, const Floats& a, const Floats& b) { return m ? a : b; }
-NACRE_INLINE Floats absolute(const Floats& v) { return v < Floats{} ? -v : v; }
 template <class V>
 NACRE_INLINE V vectorAt(const void* p) {
     V v;
@@ -11,49 +8,15 @@ NACRE_INLINE V vectorAt(const void* p) {
     return v;
 }
 
-/// The lanes' signs as bits.
-NACRE_INLINE unsigned lanes(const Mask& m) {
-#if NACRE_SET == 512
-    return _mm512_movepi32_mask(vectorAt<__m512i>(&m));
-#elif NACRE_SET == 2
-    const __m256 low = vectorAt<__m256>(&m), high = vectorAt<__m256>(reinterpret_cast<const char*>(&m) + 32);
-    return static_cast<unsigned>(_mm256_movemask_ps(low)) | static_cast<unsigned>(_mm256_movemask_ps(high)) << 8;
-#else
-    unsigned bits = 0;
-    for (int i = 0; i < kWide; ++i) bits |= static_cast<unsigned>(m[i] < 0) << i;
-    return bits;
-#endif
-}
-
-struct Columns {
-    Floats x, y, z;
-};
-NACRE_INLINE Floats dot(const glm::vec3& a, const Columns& b) {
-    return splat(a.x) * b.x + splat(a.y) * b.y + splat(a.z) * b.z;
-}
-
-/// Number c of each of sixteen triangles.
-NACRE_INLINE Floats gather(const float* byTriangle, const std::uint32_t* indices, int c) {
-#if NACRE_SET == 512
-    const __m512i at = _mm512_mullo_epi32(_mm512_loadu_si512(indices), _mm512_set1_epi32(12));
-    const __m512 v = _mm512_i32gather_ps(at, byTriangle + c, 4);
-    return vectorAt<Floats>(&v);
-#else
-    Floats v{};
-    for (int k = 0; k < kWide; ++k) v[k] = byTriangle[12 * std::size_t{indices[k]} + static_cast<std::size_t>(c)];
-    return v;
-#endif
-}
-
 /// Planes through the eye and the edges, in the receiver's frame, the triangle on their positive side.
 /// \return  lanes that are to be drawn
-NACRE_INLINE unsigned edgePlanes(const float* byTriangle, const Receiver& receiver, bool bothSides,
+NACRE_INLINE unsigned edgePlanes(const BlockerRow* blockers, const Receiver& receiver, bool bothSides,
                                  const std::uint32_t* indices, Columns (&edge)[3]) {
+    Floats v[9];
+    gather<9>(blockers, indices, v);
     Columns corner[3];
     for (int c = 0; c < 3; ++c) {
-        const Columns d = {gather(byTriangle, indices, 3 * c) - splat(receiver.point.x),
-                           gather(byTriangle, indices, 3 * c + 1) - splat(receiver.point.y),
-                           gather(byTriangle, indices, 3 * c + 2) - splat(receiver.point.z)};
+        const Columns d = Columns{v[3 * c], v[3 * c + 1], v[3 * c + 2]} - receiver.point;
         corner[c] = {dot(receiver.tangent, d), dot(receiver.bitangent, d), dot(receiver.normal, d)};
     }
     for (int e = 0; e < 3; ++e) {  // a shared edge gives its negative exactly
@@ -102,7 +65,7 @@ NACRE_INLINE void drawExactly(const Columns (&edge)[3], int lane, DiskMask& mask
     }
 }
 
-void draw(const PlaneTable* table, const float* byTriangle, const Receiver& receiver, bool bothSides,
+void draw(const PlaneTable* table, const BlockerRow* blockers, const Receiver& receiver, bool bothSides,
           std::uint32_t* indices, int count, DiskMask& mask) {
     constexpr int kBatch = 256;  // a cache's first level holds their masks
     std::uint32_t planes[3 * kBatch];
@@ -113,7 +76,7 @@ void draw(const PlaneTable* table, const float* byTriangle, const Receiver& rece
         std::size_t triangles = 0;
         for (int i = first; i < std::min(count, first + kBatch); i += kWide) {
             Columns edge[3];
-            unsigned drawn = edgePlanes(byTriangle, receiver, bothSides, indices + i, edge);
+            unsigned drawn = edgePlanes(blockers, receiver, bothSides, indices + i, edge);
             drawn &= count - i >= kWide ? 0xffffu : (1u << (count - i)) - 1;
             if (table == nullptr) {
                 for (; drawn; drawn &= drawn - 1) drawExactly(edge, __builtin_ctz(drawn), mask);

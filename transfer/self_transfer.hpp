@@ -1,6 +1,7 @@
 // Soft self-shadows of a moving mesh: for each vertex and frame the light transfer, without precomputation (HEMI).
 #pragma once
 
+#include <functional>
 #include <memory>
 
 #include "transfer/blocker_levels.hpp"
@@ -49,9 +50,14 @@ public:
     ~SelfTransfer();
     SelfTransfer(SelfTransfer&&) noexcept;
 
+    /// Called once for each computed vertex, from any thread: its mask of hidden directions and where that stands (the
+    /// receiver's point is relative to the frame).
+    using MaskUse = std::function<void(std::uint32_t vertex, const Receiver&, std::span<const std::uint32_t> mask)>;
+
     /// \param positions  of the welded vertices \param wanted  one a vertex, 0 = leave out; empty = all
     /// \throws std::invalid_argument when one isn't finite
-    TransferFrame compute(std::span<const glm::vec3> positions, std::span<const std::uint8_t> wanted = {}) const;
+    TransferFrame compute(std::span<const glm::vec3> positions, std::span<const std::uint8_t> wanted = {},
+                          const MaskUse& use = {}) const;
 
     const WeldedMesh& mesh() const;
     const SelfTransferOptions& options() const;  ///< sides resolved

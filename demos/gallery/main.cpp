@@ -129,6 +129,7 @@ Gallery makeGallery(const Arguments& arguments, const Choice& choice) {
     ExhibitOptions exhibitOptions;
     exhibitOptions.worldFolder = std::filesystem::path(arguments.data) / "world";
     exhibitOptions.heightFolder = std::filesystem::path(arguments.data) / "heights";
+    exhibitOptions.meshFolder = std::filesystem::path(arguments.data) / "meshes";
     exhibitOptions.volumeFolder = std::filesystem::path(arguments.data) / "volumes";
     exhibitOptions.sceneFolder = NACRE_SCENES;
     exhibitOptions.quick = arguments.quick;

@@ -10,6 +10,7 @@
 #include "demos/exhibit_list.hpp"
 #include "demos/orientation_chart.hpp"
 #include "demos/page.hpp"
+#include "demos/shadow_verdict.hpp"
 #include "demos/surrounding.hpp"
 #include "envmaps/convert.hpp"
 
@@ -59,6 +60,30 @@ TEST(Exhibit, PageAndJsonHoldEveryNumber) {
     EXPECT_EQ(picturesOf(someExhibit()).size(), 7u);
 }
 
+TEST(Exhibit, ATableIsOnThePageAndInTheJson) {
+    Exhibit e = someExhibit();
+    EXPECT_THAT(exhibitHtml(e), Not(HasSubstr("<table")));
+    EXPECT_FALSE(exhibitJson(e).contains("table"));
+    e.table = {{"depth", "leaks"}, {{"16 < 24", "0.1 %"}, {"24 bits", "0.01 %"}}};
+    for (const char* text : {"<th scope=\"col\">leaks</th>", "<td>16 &lt; 24</td>", "<span>0.01 %</span>"})
+        EXPECT_THAT(exhibitHtml(e), HasSubstr(text));
+    EXPECT_EQ(exhibitJson(e).at("table").at("rows").at(1).at(1), "0.01 %");
+}
+
+TEST(VerdictPicture, EachKindHasItsColourOverTheTruthInGrey) {
+    Image truth(2, 2, 1), verdict(2, 2, 1);
+    truth.at(0, 0, 0) = 1;
+    verdict.at(1, 0, 0) = 1, verdict.at(0, 1, 0) = 2, verdict.at(1, 1, 0) = 3;
+    const Image out = verdictPicture(truth, verdict, 2);
+    const Rgb grey = out.rgb(0, 0), acne = out.rgb(1, 0), leak = out.rgb(0, 1), boundary = out.rgb(1, 1);
+    EXPECT_TRUE(grey.r == grey.g && grey.g == grey.b && grey.r < 2);
+    EXPECT_TRUE(acne.r == 2 && acne.g < 0.2 && acne.b < 0.2);
+    EXPECT_TRUE(leak.b == 2 && leak.r < 0.2 && leak.g < 0.5);
+    EXPECT_TRUE(boundary.r == 2 && boundary.g > 1 && boundary.b == 0);
+    EXPECT_LT(verdictPicture(Image(1, 1, 1), Image(1, 1, 1), 2).rgb(0, 0).r, grey.r);  // shadow is darker
+    EXPECT_THROW(verdictPicture(truth, Image(1, 2, 1), 1), std::invalid_argument);
+}
+
 TEST(Exhibit, RefusesWhatThePageCannotShow) {
     const auto refused = [](auto breakIt) {
         Exhibit e = someExhibit();
@@ -70,6 +95,8 @@ TEST(Exhibit, RefusesWhatThePageCannotShow) {
     refused([](Exhibit& e) { e.rows[0].panels[0].picture.png.clear(); });
     refused([](Exhibit& e) { e.rows[1].panels[0].comparison->difference.file.clear(); });
     refused([](Exhibit& e) { e.rows[1].panels[0].comparison->psnr = std::numeric_limits<double>::quiet_NaN(); });
+    refused([](Exhibit& e) { e.table = {{"a", "b"}, {{"1"}}}; });
+    refused([](Exhibit& e) { e.table = {{}, {{}}}; });
     Gallery twice;
     twice.exhibits = {someExhibit(), someExhibit()};
     EXPECT_THROW(galleryPage(twice), std::invalid_argument);

@@ -178,3 +178,32 @@ write("scene/import.json", b'{"nacre_scene": 1, "nodes": {"n": {"import": "x.glb
 write("scene/twice.json", b'{"nacre_scene": 1, "nodes": {"n": {}, "n": {}}}')
 write("scene/cycle.json", b'{"nacre_scene": 1, "nodes": {"n": {"children": ["m"]}, "m": {"children": ["n"]}}}')
 write("scene/deep.json", b"[" * 70)
+
+
+def iqm():
+    parts, at = [], [144]
+
+    def put(data):
+        parts.append(data)
+        at[0] += len(data)
+        return at[0] - len(data)
+
+    text = b"\0bend\0low\0high\0".ljust(20, b"\0")
+    positions = put(struct.pack("<9f", 0, 0, 0, 1, 0, 0, 0, 0, 2))
+    uvs = put(struct.pack("<6f", 0, 0, 1, 0, 0, 1))
+    bones = put(bytes([0, 0, 0, 0] * 2 + [1, 0, 0, 0]))
+    weights = put(bytes([255, 0, 0, 0, 100, 0, 0, 0, 255, 0, 0, 0]))
+    arrays = put(struct.pack("<20I", 0, 0, 7, 3, positions, 1, 0, 7, 2, uvs, 4, 0, 1, 4, bones, 5, 0, 1, 4, weights))
+    triangles = put(struct.pack("<3I", 0, 1, 2))
+    low, high = (0, 0, 0, 0, 0, 0, 1, 1, 1, 1), (0, 0, 1, 0, 0, 0, 1, 1, 1, 1)
+    joints = put(struct.pack("<Ii10f", 6, -1, *low) + struct.pack("<Ii10f", 10, 0, *high))
+    poses = put(struct.pack("<iI20f", -1, 0, *low, *[0] * 10) + struct.pack("<iI20f", 0, 8, *high, 0, 0, 0, 1e-5, *[0] * 6))
+    clips = put(struct.pack("<3IfI", 1, 0, 2, 24, 0))
+    frames = put(struct.pack("<2H", 0, 65535))
+    header = [2, at[0], 0, 20, 124, 0, 0, 4, 3, arrays, 1, triangles, 0, 2, joints, 2, poses, 1, clips, 2, 1, frames] + [0] * 5
+    return b"INTERQUAKEMODEL\0" + struct.pack("<27I", *header) + text + b"".join(parts)
+
+
+write("iqm/bend.iqm", iqm())
+md2_frames = b"".join(struct.pack("<6f16s12B", 1, 1, 1, 0, 0, 0, n, *range(12)) for n in [b"run1", b"run2", b"wave001"])
+write("md2/run.md2", b"IDP2" + struct.pack("<16I", 8, 64, 64, 52, 0, 3, 0, 0, 0, 3, 68, 68, 68, 68, 68, 0) + md2_frames)

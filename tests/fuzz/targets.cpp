@@ -26,6 +26,8 @@
 #include "factorize/measured/samples.hpp"
 #include "factorize/models/models.hpp"
 #include "shading/gltf_scene.hpp"
+#include "shading/iqm_file.hpp"
+#include "shading/md2_frames.hpp"
 #include "shading/scene_file.hpp"
 #include "shading/volume_file.hpp"
 
@@ -113,6 +115,22 @@ static void readGltfBytes(std::span<const std::uint8_t> bytes) {
     if (geometryOf(file).empty()) throw std::logic_error("no container");
 }
 
+/// One frame of each clip: the times themselves are checked whole.
+static void readIqmBytes(std::span<const std::uint8_t> bytes) {
+    Rig rig = parseIqm(bytes, "input");
+    for (RigClip& clip : rig.clips) {
+        clip.seconds = 0;
+        animateRig(rig, &clip, 0, "input", {});
+    }
+}
+static void readMd2Bytes(std::span<const std::uint8_t> bytes) {
+    std::size_t next = 0;
+    for (const Md2Clip& clip : md2Clips(bytes, "input")) {
+        if (clip.first != next || clip.count == 0) throw std::logic_error("clips that leave frames out");
+        next += clip.count;
+    }
+}
+
 /// Feeds a reader of lines.
 template <typename Reader, typename Item>
 static void readLines(std::span<const std::uint8_t> bytes) {
@@ -140,6 +158,8 @@ const std::vector<FuzzTarget>& fuzzTargets() {
                                                     {"volume", readVolumeBytes},
                                                     {"scene", readSceneText},
                                                     {"gltf", readGltfBytes},
+                                                    {"iqm", readIqmBytes},
+                                                    {"md2", readMd2Bytes},
                                                     {"env_queries", readLines<cli::EnvQueryReader, cli::EnvQuery>},
                                                     {"bump_queries", readLines<cli::BumpQueryReader, cli::BumpQuery>}};
     return targets;

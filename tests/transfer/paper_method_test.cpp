@@ -30,12 +30,10 @@ std::vector<Triangle> someTriangles(std::size_t count) {
 }
 
 DiskMask drawn(const PlaneTable* table, const Triangle& t, bool bothSides) {
-    BlockerList list;
-    list.start(1);
-    list.add(t.a, t.b, t.c);
+    const BlockerRow row = blockerRow(t.a, t.b, t.c);
     std::uint32_t indices[kLanes] = {0};
     DiskMask mask;
-    diskKernel().draw(table, list.byTriangle.data(), Receiver{}, bothSides, indices, 1, mask);
+    diskKernel().draw(table, &row, Receiver{}, bothSides, indices, 1, mask);
     return mask;
 }
 
@@ -128,12 +126,11 @@ TEST(PlaneTable, SameBitsForAllVectors) {
     DiskIntegrals integrals;
     for (std::size_t b = 0; b < kDiskBlocks; ++b)
         for (std::size_t c = 0; c < 2 * kLanes; ++c) integrals.perBit[b][c] = 0.01f * static_cast<float>(b * 7 + c * c);
-    BlockerList list;
+    std::vector<BlockerRow> rows;
     const std::vector<Triangle> triangles = someTriangles(300);
-    list.start(triangles.size());
     std::vector<std::uint32_t> indices(triangles.size() + kLanes);
     for (std::size_t t = 0; t < triangles.size(); ++t) {
-        list.add(0.2f * triangles[t].a, 0.3f * triangles[t].b, triangles[t].c);
+        rows.push_back(blockerRow(0.2f * triangles[t].a, 0.3f * triangles[t].b, triangles[t].c));
         indices[t] = static_cast<std::uint32_t>(t);
     }
     for (const PlaneTable* planes : {table.get(), static_cast<const PlaneTable*>(nullptr)}) {
@@ -143,11 +140,11 @@ TEST(PlaneTable, SameBitsForAllVectors) {
             if (!processorHas(set)) continue;
             DiskMask mask;
             float sums[2 * kLanes];
-            diskKernel(set).draw(planes, list.byTriangle.data(), Receiver{}, false, indices.data(), 29, mask);
+            diskKernel(set).draw(planes, rows.data(), Receiver{}, false, indices.data(), 29, mask);
             diskKernel(set).integrate(integrals, mask, sums);
-            const std::vector<std::uint32_t> rows(mask.rows, mask.rows + kDiskSize);
-            if (first.empty()) first = rows, std::copy_n(sums, 2 * kLanes, firstSums);
-            EXPECT_EQ(rows, first);
+            const std::vector<std::uint32_t> bits(mask.rows, mask.rows + kDiskSize);
+            if (first.empty()) first = bits, std::copy_n(sums, 2 * kLanes, firstSums);
+            EXPECT_EQ(bits, first);
             for (int c = 0; c < 2 * kLanes; ++c) EXPECT_EQ(sums[c], firstSums[c]);
         }
         EXPECT_NE(first, std::vector<std::uint32_t>(kDiskSize, 0));

@@ -1,0 +1,39 @@
+// Which blockers a group of vertices lists and which a vertex draws, by the widest vectors that the processor has.
+#pragma once
+
+#include "transfer/mask_kernel.hpp"
+#include "transfer/receiver_groups.hpp"
+
+namespace nacre {
+
+/// The patches of a frame by columns, each padded to a multiple of 16.
+struct PatchColumns {
+    std::size_t count = 0;
+    std::vector<float> centre[3], radius;  ///< a ball about all triangles of all levels
+    std::vector<float> corners[9];         ///< of the coarsest level's triangle
+    std::vector<std::vector<float>> off;   ///< [level ≥ 1] how far the level is from the mesh [world units]
+    void resize(std::size_t patches, std::size_t levels);
+};
+inline constexpr std::uint8_t kHiddenPatch = 0x80;  ///< beside the level: under the horizon of all vertices
+
+/// Triangles that no vertex of a group can rule out, by columns for the vertices' own tests.
+struct ListedBlockers {
+    std::vector<float> columns[13];    ///< corners, normal, offset
+    std::vector<std::uint32_t> index;  ///< of their rows
+    std::size_t count = 0;
+};
+
+struct BlockerKernel {
+    /// The coarsest level whose error is below `angle`, seen from the group, for each patch; and whether it is hidden.
+    /// \param levels  room for the padded count
+    void (*choose)(const PatchColumns& patches, const GroupBounds& group, float angle, std::uint8_t* levels);
+    /// Those of `count` rows that may face, and rise over the plane of, some vertex of the group.
+    /// \param candidates  room for 15 more behind
+    void (*list)(const BlockerRow* rows, std::uint32_t* candidates, std::size_t count, const GroupBounds& group, bool bothSides,
+                 ListedBlockers& out);
+    /// Those with a corner over the receiver's plane that, unless bothSides, face it. \param out  room for 16 more
+    std::size_t (*cull)(const ListedBlockers& list, const Receiver& receiver, bool bothSides, std::uint32_t* out);
+};
+BlockerKernel blockerKernel(VectorSet set = VectorSet::Widest);
+
+}  // namespace nacre

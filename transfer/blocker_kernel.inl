@@ -1,0 +1,70 @@
+// The arithmetic of blocker_kernel.hpp; core/wide.inl says where this is compiled.
+#include "transfer/vector_parts.inl"
+
+NACRE_INLINE Columns columnsAt(const std::vector<float>* xyz, std::size_t i) {
+    return {load(&xyz[0][i]), load(&xyz[1][i]), load(&xyz[2][i])};
+}
+
+/// The test of belowHorizon (receiver_groups.hpp).
+NACRE_INLINE Mask mayRise(const GroupBounds& group, const Columns& d, const Floats& distance, const Floats& radius) {
+    const Floats radii = radius + splat(group.radius);
+    return dot(group.normal, d) + splat(glm::length(group.normal)) * radii + splat(group.spread) * (distance + radii) >= Floats{};
+}
+
+void choose(const PatchColumns& patches, const GroupBounds& group, float angle, std::uint8_t* levels) {
+    for (std::size_t i = 0; i < patches.count; i += kWide) {
+        const Columns d = columnsAt(patches.centre, i) - group.centre;
+        const Floats distance = lengthOf(d);
+        Floats nearest = distance;
+        for (int c = 0; c < 3; ++c) nearest = smaller(nearest, lengthOf(columnsAt(patches.corners + 3 * c, i) - group.centre));
+        // What touches the group is fine until the angle is large: there an error is seen from no distance at all.
+        const Floats allowed = splat(angle) * larger(nearest - splat(group.radius), splat(0.2f * angle) * distance);
+        Mask level{};
+        for (std::size_t l = 1; l < patches.off.size(); ++l)
+            level = load(&patches.off[l][i]) <= allowed ? Mask{} + static_cast<std::int32_t>(l) : level;
+        level |= ~mayRise(group, d, distance, load(&patches.radius[i])) & kHiddenPatch;
+        for (int k = 0; k < kWide; ++k) levels[i + static_cast<std::size_t>(k)] = static_cast<std::uint8_t>(level[k]);
+    }
+}
+
+void list(const BlockerRow* rows, std::uint32_t* candidates, std::size_t count, const GroupBounds& group, bool bothSides,
+          ListedBlockers& out) {
+    out.count = 0;
+    for (std::size_t k = count; k % kWide; ++k) candidates[k] = candidates[count - 1];
+    for (std::size_t i = 0; i < count; i += kWide) {
+        Floats v[14];
+        gather<14>(rows, candidates + i, v);
+        Floats highest{}, farthest{};
+        for (int c = 0; c < 3; ++c) {
+            const Columns d = Columns{v[3 * c], v[3 * c + 1], v[3 * c + 2]} - group.centre;
+            const Floats height = dot(group.normal, d), far = lengthOf(d);
+            highest = c == 0 ? height : larger(highest, height);
+            farthest = larger(farthest, far);
+        }
+        const Floats radius = splat(group.radius);
+        Mask keep = highest + splat(glm::length(group.normal)) * radius + splat(group.spread) * (farthest + radius) >= Floats{};
+        if (!bothSides) keep &= dot(group.centre, {v[9], v[10], v[11]}) - v[12] + v[13] * radius >= Floats{};
+        const unsigned used = count - i >= kWide ? 0xffffu : (1u << (count - i)) - 1, bits = lanes(keep) & used;
+        std::uint32_t which[kWide];
+        std::memcpy(which, candidates + i, sizeof(which));
+        for (int c = 0; c < 13; ++c) append(out.columns[c].data(), out.count, v[c], bits);
+        out.count = append(out.index.data(), out.count, which, bits);
+    }
+}
+
+std::size_t cull(const ListedBlockers& list, const Receiver& receiver, bool bothSides, std::uint32_t* out) {
+    const glm::vec3 &p = receiver.point, &n = receiver.normal;
+    const Floats height = splat(n.x * p.x + n.y * p.y + n.z * p.z);
+    std::size_t count = 0;
+    for (std::size_t i = 0; i < list.count; i += kWide) {
+        const Floats z = larger(larger(dot(n, columnsAt(list.columns, i)), dot(n, columnsAt(list.columns + 3, i))),
+                                dot(n, columnsAt(list.columns + 6, i)));
+        Mask keep = z > height;
+        if (!bothSides) keep &= dot(p, columnsAt(list.columns + 9, i)) > load(&list.columns[12][i]);
+        const unsigned used = list.count - i >= kWide ? 0xffffu : (1u << (list.count - i)) - 1;
+        std::uint32_t which[kWide];
+        std::memcpy(which, &list.index[i], sizeof(which));
+        count = append(out, count, which, lanes(keep) & used);
+    }
+    return count;
+}
