@@ -6,11 +6,13 @@
 
 #include "core/shadow_view.hpp"
 #include "demos/picture.hpp"
+#include "demos/recipe.hpp"
 #include "demos/stage.hpp"
 #include "reference/raytrace.hpp"
 #include "shading/motion.hpp"
 #include "shading/timing.hpp"
 #include "transfer/chess.hpp"
+#include "transfer/exitant_radiance.hpp"
 #include "transfer/front_facing.hpp"
 #include "transfer/mask_tables.hpp"
 
@@ -26,19 +28,23 @@ bool isFile(const std::filesystem::path& path) {
     return std::filesystem::is_regular_file(path, ignored);
 }
 
-AnimatedMesh motionOf(const Task& task, const TransferModel& model) {
+ShownMotion motionOf(const Task& task, const TransferModel& model) {
     const std::filesystem::path folder = task.options.animatedFolder, pieces = folder / "chess",
                                 file = folder / model.motion;
-    if (model.boardVertices > 0) return chessAnimation(turnedChessSet(), {.boardVertices = model.boardVertices});
+    if (model.boardVertices > 0)
+        return {chessAnimation(turnedChessSet(), {.boardVertices = model.boardVertices}), {}, {}, ""};
     MotionOptions options;
-    if (model.motion == "chess" && isFile(pieces / "king.obj")) options.chessPieces = pieces;
-    if (model.motion == "chess" || model.motion == "cloth") return loadMotion(model.motion, options);
-    if (isFile(file)) return loadMotion(file.string());
+    if (model.motion == "chess" && isFile(pieces / "king.obj")) {
+        options.chessPieces = pieces;
+        return {loadMotion("chess", options), {}, {}, ""};
+    }
+    if (model.motion == "chess" || model.motion == "cloth") return {loadMotion(model.motion), {}, {}, model.motion};
+    if (isFile(file)) return {loadMotion(file.string()), {}, {}, shellQuoted(file.string())};
     task.notes.push_back(
         fmt::format("{}: {} is not there (demos/fetch.sh gets it): another cloth stands in", task.id, file.string()));
     options.frames = 120;
     options.seed = 7;
-    return loadMotion("cloth", options);
+    return {loadMotion("cloth", options), {}, {}, ""};
 }
 
 Camera cameraOf(const ShownMotion& motion, const TransferModel& model) {
@@ -56,17 +62,8 @@ Camera cameraOf(const ShownMotion& motion, const TransferModel& model) {
     return camera;
 }
 
-/// albedo Σ L_i V_i (HEMI equation 2).
-template <class Number>
-std::vector<glm::vec3> radianceOf(std::span<const Number> transfer, const SphericalHarmonics& light) {
-    std::vector<glm::vec3> out(transfer.size() / kCoefficients);
-    for (std::size_t v = 0; v < out.size(); ++v) {
-        Rgb sum(0);
-        for (std::size_t i = 0; i < kCoefficients; ++i)
-            sum += static_cast<double>(transfer[v * kCoefficients + i]) * light.coefficients[i];
-        out[v] = kAlbedo * sum;
-    }
-    return out;
+std::vector<glm::vec3> radianceOf(std::span<const float> transfer, const SphericalHarmonics& light) {
+    return exitantRadiance(transfer, light.coefficients, Rgb(kAlbedo));
 }
 
 /// U_l √(4π/(2l + 1)) y_lm(n): the zonal transfer turned to the normal.
@@ -107,11 +104,7 @@ SelfTransfer transferOf(const AnimatedMesh& animation) {
 }  // namespace
 
 ShownMotion openMotion(const Task& task, const TransferModel& model) {
-    ShownMotion out;
-    out.animation = motionOf(task, model);
-    if (model.zUp)
-        for (std::vector<glm::vec3>& frame : out.animation.frames)
-            for (glm::vec3& p : frame) p = {p.x, p.z, -p.y};
+    ShownMotion out = motionOf(task, model);
     const double count = static_cast<double>(out.animation.frames.size());
     for (const double share : model.shown) out.frames.push_back(static_cast<std::size_t>(share * count));
     out.camera = cameraOf(out, model);
@@ -130,10 +123,11 @@ TransferStudy::TransferStudy(ProgramLoader& loader, const ShownMotion& motion, s
 void TransferStudy::addFrame(std::vector<glm::vec3> positions, std::size_t rays) {
     TransferStudyFrame frame;
     TransferFrame found = transfer_.compute(positions);
-    frame.truth = truthOf(transfer_.mesh(), positions, found.normals, rays);
+    const std::vector<double> truth = truthOf(transfer_.mesh(), positions, found.normals, rays);
+    frame.truth.assign(truth.begin(), truth.end());
     frame.open = openVectors(found.normals);
-    frame.error = transferError(found.coefficients, frame.truth, kCoefficients);
-    frame.withoutShadows = transferError(frame.open, frame.truth, kCoefficients);
+    frame.error = transferError(found.coefficients, truth, kCoefficients);
+    frame.withoutShadows = transferError(frame.open, truth, kCoefficients);
     frame.listed = found.listed, frame.drawn = found.drawn, frame.seconds = found.seconds;
     frame.positions = std::move(positions), frame.normals = std::move(found.normals);
     frames_.push_back(std::move(frame));
@@ -148,19 +142,19 @@ TransferStudy::Draw TransferStudy::shadowed(std::size_t frame, const SphericalHa
     return [this, frame, &light](const RenderTarget& target) {
         const std::vector<glm::vec3>& positions = frames_[frame].positions;
         const TransferFrame found = transfer_.compute(positions, frontFacing(transfer_.mesh(), positions, camera_.eye));
-        draw(target, frame, radianceOf<float>(found.coefficients, light));
+        draw(target, frame, radianceOf(found.coefficients, light));
     };
 }
 
 TransferStudy::Draw TransferStudy::withoutShadows(std::size_t frame, const SphericalHarmonics& light) {
     return [this, frame, &light](const RenderTarget& target) {
-        draw(target, frame, radianceOf<float>(frames_[frame].open, light));
+        draw(target, frame, radianceOf(frames_[frame].open, light));
     };
 }
 
 TransferStudy::Draw TransferStudy::rayTraced(std::size_t frame, const SphericalHarmonics& light) {
     return [this, frame, &light](const RenderTarget& target) {
-        draw(target, frame, radianceOf<double>(frames_[frame].truth, light));
+        draw(target, frame, radianceOf(frames_[frame].truth, light));
     };
 }
 
@@ -188,7 +182,7 @@ RaytracedPicture TransferStudy::tracedPixels(std::size_t frame, const SphericalH
         positions.emplace_back(p.position), normals.emplace_back(p.normal);
     }
     const std::vector<double> vectors = tracedTransfer(mesh.triangles, positions, normals, samples, kOrder, rays);
-    const std::vector<glm::vec3> found = radianceOf<double>(vectors, light);
+    const std::vector<glm::vec3> found = radianceOf(std::vector<float>(vectors.begin(), vectors.end()), light);
     std::vector<Rgb> radiance(surface.points.size(), Rgb(0));
     std::size_t next = 0;
     for (std::size_t i = 0; i < radiance.size(); ++i)
@@ -212,7 +206,7 @@ TransferStudy::Seconds TransferStudy::secondsAFrame(int repeats) const {
 
 TransferLight transferLight(const Task& task, const std::string& surrounding) {
     const Surrounding s = task.open(surrounding);
-    return {projectEnvironment(s.map, kOrder), s.words};
+    return {projectEnvironment(s.map, kOrder), s.file, s.words};
 }
 
 }  // namespace nacre

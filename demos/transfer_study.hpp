@@ -15,7 +15,6 @@ struct TransferModel {
     std::string words;
     std::vector<double> shown;  ///< frames, as shares of the clip
     double azimuthDeg = 20, elevationDeg = 25, zoom = 1;
-    bool zUp = false;       ///< the file's; it is laid so that y is up
     int boardVertices = 0;  ///< of chess: along an edge of a board with turned pieces; 0: loadMotion's
 };
 
@@ -23,7 +22,7 @@ struct TransferModel {
 struct TransferStudyFrame {
     std::vector<glm::vec3> positions, normals;
     std::vector<float> open;              ///< nothing shadows: by the normal alone
-    std::vector<double> truth;            ///< by rays
+    std::vector<float> truth;             ///< by rays
     TransferError error, withoutShadows;  ///< of SelfTransfer, and of `open`
     double listed = 0, drawn = 0;         ///< blockers a vertex
     TransferSeconds seconds;
@@ -31,10 +30,10 @@ struct TransferStudyFrame {
 
 /// A model opened.
 struct ShownMotion {
-    AnimatedMesh animation;           ///< y up
+    AnimatedMesh animation;
     std::vector<std::size_t> frames;  ///< of it, shown
     Camera camera;                    ///< sees all of these
-    std::string words;
+    std::string command;              ///< what a command line calls it; empty: nothing there does
 };
 /// Where the file isn't there another cloth stands in, and task.notes says so.
 ShownMotion openMotion(const Task& task, const TransferModel& model);
@@ -79,7 +78,7 @@ RaytracedPicture pictureOf(const TransferStudy::Draw& draw, int size);
 
 struct TransferLight {
     SphericalHarmonics coefficients;  ///< to order 4, without a window
-    std::string words;
+    std::string file, words;          ///< of the surrounding
 };
 /// Notes what stands in.
 TransferLight transferLight(const Task& task, const std::string& surrounding);
