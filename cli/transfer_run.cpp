@@ -6,6 +6,7 @@
 
 #include "cli/output_file.hpp"
 #include "core/error.hpp"
+#include "transfer/paper_method.hpp"
 
 namespace nacre::cli {
 
@@ -29,8 +30,33 @@ static void add(TransferRun& run, const TransferFrame& frame, double wallSeconds
     run.withoutNormal = std::max(run.withoutNormal, static_cast<std::size_t>(without));
 }
 
-TransferRun runTransfer(const AnimatedMesh& animation, int first, int end, const SelfTransferOptions& options,
-                        const std::string& name, const Progress& progress) {
+namespace {
+
+/// One of both methods.
+class Method {
+public:
+    Method(const WeldedMesh& mesh, std::span<const glm::vec3> rest, const TransferPlan& plan) {
+        const SelfTransferOptions& o = plan.options;
+        if (plan.lut)
+            paper_.emplace(mesh, rest, PaperMethodOptions{*plan.lut, o.rings, o.coarse, o.sides, true, o.threads});
+        else
+            self_.emplace(mesh, rest, o);
+    }
+    TransferFrame compute(std::span<const glm::vec3> positions) const {
+        return paper_ ? paper_->compute(positions) : self_->compute(positions);
+    }
+    std::size_t coarseTriangles() const { return paper_ ? paper_->coarseTriangles() : self_->coarseTriangles(); }
+
+private:
+    std::optional<SelfTransfer> self_;
+    std::optional<PaperMethod> paper_;
+};
+
+}  // namespace
+
+TransferRun runTransfer(const AnimatedMesh& animation, const TransferPlan& plan, const std::string& name,
+                        const Progress& progress) {
+    const auto [first, end] = std::pair(plan.first, plan.end);
     TransferRun run;
     TransferRecording& out = run.recording;
     const auto frameAt = [&](int f) -> const std::vector<glm::vec3>& {
@@ -40,16 +66,17 @@ TransferRun runTransfer(const AnimatedMesh& animation, int first, int end, const
     while (rest < end && !allFinite(frameAt(rest))) ++rest;
     if (rest == end)
         throw Error(fmt::format("{}: expected finite positions, found none in frames {} to {}", name, first, end - 1));
-    WeldedMesh mesh = weldMesh(animation, name);
-    out.order = options.order;
+    const WeldedMesh mesh = weldMesh(animation, name);
+    out.order = plan.options.order;
     out.framesPerSecond = animation.framesPerSecond;
     out.weldOf = mesh.weldOf;
     out.triangles = mesh.triangles;
     const std::vector<glm::vec3> restPositions = weldedPositions(mesh, frameAt(rest));
-    const SelfTransfer transfer(std::move(mesh), restPositions, options);
+    const Method transfer(mesh, restPositions, plan);
     run.coarseTriangles = transfer.coarseTriangles();
-    run.closed = transfer.mesh().closed;
-    run.sides = transfer.options().sides;
+    run.closed = mesh.closed;
+    run.sides = plan.options.sides;
+    if (run.sides == BlockingSides::Auto) run.sides = mesh.closed ? BlockingSides::Front : BlockingSides::Both;
     transfer.compute(restPositions);
     for (int f = first; f < end; ++f) {
         report(progress, "frames", static_cast<double>(f - first) / (end - first));
@@ -57,7 +84,7 @@ TransferRun runTransfer(const AnimatedMesh& animation, int first, int end, const
             run.refused.push_back(f);
             continue;
         }
-        std::vector<glm::vec3> positions = weldedPositions(transfer.mesh(), frameAt(f));
+        std::vector<glm::vec3> positions = weldedPositions(mesh, frameAt(f));
         if (!out.blocks.empty() && positions == out.blocks.back().positions) {
             ++run.reused;
         } else {

@@ -24,10 +24,15 @@ struct TransferRun {
     BlockingSides sides = BlockingSides::Auto;
 };
 
-/// \param first, end  frames first … end − 1 of the animation
+struct TransferPlan {
+    int first = 0, end = 0;  ///< frames first … end − 1
+    SelfTransferOptions options;
+    std::optional<int> lut{};  ///< by PaperMethod with this table, and rings, coarse, sides and threads of the options
+};
+
 /// \throws nacre::Error naming the animation when no frame has finite positions
-TransferRun runTransfer(const AnimatedMesh& animation, int first, int end, const SelfTransferOptions& options,
-                        const std::string& name, const Progress& progress);
+TransferRun runTransfer(const AnimatedMesh& animation, const TransferPlan& plan, const std::string& name,
+                        const Progress& progress);
 
 struct TransferMeasure {
     TransferError error;

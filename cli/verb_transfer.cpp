@@ -15,6 +15,7 @@
 #include "core/file.hpp"
 #include "core/version.hpp"
 #include "shading/motion.hpp"
+#include "transfer/paper_method.hpp"
 
 namespace nacre::cli {
 
@@ -24,10 +25,11 @@ namespace {
 
 struct Settings {
     std::string model, output, clip, ply, sides = "auto", vectors = "widest", weights;
-    SelfTransferOptions options;
+    TransferPlan plan;  ///< end 0: all
+    std::optional<int> rings{};
+    std::string notWithLut;  ///< the first option given that the paper's method has no use for
     TransferLight light;
-    int first = 0, end = 0;  ///< end 0: all
-    std::size_t rays = 0;    ///< 0: no reference
+    std::size_t rays = 0;  ///< 0: no reference
     int referenceFrames = 8;
     bool asJson = false;
 };
@@ -46,10 +48,10 @@ void takeFrames(Settings& s, const std::string& text) {
         if (failure != std::errc{} || end != part.data() + part.size() || value < 0) throw wrong();
         return value;
     };
-    s.first = number(std::string_view(text).substr(0, colon), 0);
-    s.end = number(std::string_view(text).substr(colon + 1), 0);
+    s.plan.first = number(std::string_view(text).substr(0, colon), 0);
+    s.plan.end = number(std::string_view(text).substr(colon + 1), 0);
     const bool open = colon + 1 == text.size();
-    if (!open && s.end <= s.first) throw wrong();
+    if (!open && s.plan.end <= s.plan.first) throw wrong();
 }
 
 void takeWeights(Settings& s) {
@@ -81,14 +83,14 @@ std::string ranges(const std::vector<int>& numbers) {
 AnimatedMesh read(Settings& s) {
     MotionOptions motion;
     motion.clip = s.clip;
-    motion.frames = s.end;
+    motion.frames = s.plan.end;
     motion.note = [&](const std::string& note) { tell(fmt::format("{}: {}", s.model, note)); };
     AnimatedMesh animation = loadMotion(s.model, motion);
     const int count = static_cast<int>(animation.frames.size());
-    if (s.end == 0) s.end = count;
-    if (s.end > count || s.first >= s.end)
-        throw UsageError(
-            fmt::format("--frames: expected frames of {}, which has {}, found {}:{}", s.model, count, s.first, s.end));
+    if (s.plan.end == 0) s.plan.end = count;
+    if (s.plan.end > count || s.plan.first >= s.plan.end)
+        throw UsageError(fmt::format("--frames: expected frames of {}, which has {}, found {}:{}", s.model, count,
+                                     s.plan.first, s.plan.end));
     return animation;
 }
 
@@ -103,7 +105,7 @@ json errorJson(const TransferMeasure& m, std::size_t rays) {
 
 /// What the file says of itself besides what its numbers need: nothing that differs from run to run.
 json description(const Context& context, const Settings& s, const TransferRun& run) {
-    const SelfTransferOptions& o = s.options;
+    const SelfTransferOptions& o = s.plan.options;
     json out = {{"nacre", nacreVersion()},
                 {"command_line", context.commandLine},
                 {"source", s.model},
@@ -119,6 +121,7 @@ json description(const Context& context, const Settings& s, const TransferRun& r
                 {"vertices_without_normal", run.withoutNormal},
                 {"frames_reused", run.reused},
                 {"frames_refused", run.refused}};
+    if (s.plan.lut) out["options"]["lut"] = *s.plan.lut;
     if (!s.clip.empty()) out["options"]["clip"] = s.clip;
     std::error_code ignored;
     if (std::filesystem::is_regular_file(s.model, ignored)) out["source_hash"] = fileHash(s.model);
@@ -132,7 +135,7 @@ json speedJson(const TransferRun& run, const Settings& s) {
             {"frames_per_second", frames / run.wallSeconds},
             {"compute_seconds", run.wallSeconds},
             {"vectors", s.vectors},
-            {"threads", s.options.threads},
+            {"threads", s.plan.options.threads},
             {"seconds",
              {{"rasterization", t.rasterization},
               {"integration", t.integration},
@@ -179,18 +182,22 @@ void runTransferVerb(const Context& context, Settings s) {
     takeWeights(s);
     if (s.ply.empty() && (s.light.turnDeg != 0 || s.light.white != 0))
         throw UsageError("--turn, --white: expected --ply, found none");
-    s.options.sides = sidesOf(s.sides);
-    s.options.vectors = vectorSetFromString(s.vectors);
-    maskKernel(s.options.mask, s.options.vectors);  // a processor without these vectors: said before the work
+    if (s.plan.lut && !s.notWithLut.empty())
+        throw UsageError(fmt::format(
+            "{}: expected no --lut, whose method has 32 x 32 bits, order 4 and one coarse mesh", s.notWithLut));
+    s.plan.options.rings = s.rings.value_or(s.plan.lut ? PaperMethodOptions{}.rings : SelfTransferOptions{}.rings);
+    s.plan.options.sides = sidesOf(s.sides);
+    s.plan.options.vectors = vectorSetFromString(s.vectors);
+    maskKernel(s.plan.options.mask, s.plan.options.vectors);  // a processor without these vectors: said before the work
     requireWritable(s.model, s.output, provisionalName(s.output), "");
-    if (!s.ply.empty()) requirePlyPlace(s.ply, s.first);
-    const LightCoefficients light = readLight(s.light, s.options.order);
+    if (!s.ply.empty()) requirePlyPlace(s.ply, s.plan.first);
+    const LightCoefficients light = readLight(s.light, s.plan.options.order);
     const Progress progress = terminalProgress(context.quiet);
     report(progress, "reading " + s.model, 0);
     const Stopwatch reading;
     const AnimatedMesh animation = read(s);
     const double readSeconds = reading.seconds();
-    TransferRun run = runTransfer(animation, s.first, s.end, s.options, s.model, progress);
+    TransferRun run = runTransfer(animation, s.plan, s.model, progress);
     json& meta = run.recording.meta = description(context, s, run);
     if (!s.light.files.empty()) {
         meta["light"]["environments"] = s.light.files;
@@ -252,6 +259,12 @@ constexpr const char* kDetails =
     "  nacre transfer cloth -o cloth.tv --frames 0:30 --reference 1024 --env city.hdr --ply cloth_####.ply";
 
 std::vector<Option> options(const std::shared_ptr<Settings>& s) {
+    const auto own = [s](const std::string& flag, std::function<void(const std::string&)> take) {
+        return [s, flag, take](const std::string& given) {
+            if (s->notWithLut.empty()) s->notWithLut = flag;
+            take(given);
+        };
+    };
     return {
         {"model", "MODEL", "Animated mesh, or cloth, chess", into(s->model), true},
         {"-o,--output", "OUT", "The file to write", into(s->output), true},
@@ -261,17 +274,22 @@ std::vector<Option> options(const std::shared_ptr<Settings>& s) {
         {"--mask",
          "N",
          "Bits a side of the hemisphere's mask (default 32)",
-         [s](const std::string& given) { s->options.mask = std::stoi(given); },
+         own("--mask", [s](const std::string& given) { s->plan.options.mask = std::stoi(given); }),
          false,
          {"16", "32", "64", "128"}},
         {"--order", "L", "Highest band of the harmonics, 0 to 6 (default 4: 25 coefficients)",
-         integerInto([s](long long v) { s->options.order = static_cast<int>(v); }, 0, kMaxTransferOrder)},
-        {"--rings", "R", "The mesh itself blocks within so many rings of triangles, 1 or 2 (default 1)",
-         integerInto([s](long long v) { s->options.rings = static_cast<int>(v); }, 1, 2)},
+         own("--order",
+             integerInto([s](long long v) { s->plan.options.order = static_cast<int>(v); }, 0, kMaxTransferOrder))},
+        {"--rings", "R", "The mesh itself blocks within so many rings of triangles, 1 or 2 (default 1; with --lut 2)",
+         integerInto([s](long long v) { s->rings = static_cast<int>(v); }, 1, 2)},
         {"--coarse", "N", "Triangles of the coarsest level of detail (default 400); 0: the mesh itself everywhere",
-         integerInto([s](long long v) { s->options.coarse = static_cast<std::size_t>(v); }, 0, 1 << 30)},
+         integerInto([s](long long v) { s->plan.options.coarse = static_cast<std::size_t>(v); }, 0, 1 << 30)},
         {"--lod-angle", "RAD", "A level is used where it is off by less, seen from the vertex (default 0.02)",
-         positiveInto([s](double v) { s->options.lodAngle = v; })},
+         own("--lod-angle", positiveInto([s](double v) { s->plan.options.lodAngle = v; }))},
+        {"--lut", "L",
+         "HEMI's method as printed, to compare with, with a table of 6 L x L planes, to 512 (the paper's: 128); 0: "
+         "exact planes",
+         integerInto([s](long long v) { s->plan.lut = static_cast<int>(v); }, 0, 512)},
         {"--sides",
          "NAME",
          "Sides that block: front on closed meshes (auto, default), front, both",
@@ -281,7 +299,7 @@ std::vector<Option> options(const std::shared_ptr<Settings>& s) {
         {"--vectors",
          "NAME",
          "The processor's; the same bits for any (default widest)",
-         into(s->vectors),
+         own("--vectors", into(s->vectors)),
          false,
          {"plain", "avx2", "avx512", "widest"}},
         {"--reference", "N", "Measure the error against N rays a vertex",
@@ -302,7 +320,8 @@ std::vector<Option> options(const std::shared_ptr<Settings>& s) {
         {"--white", "W", "Radiance shown as white in PLY (default 1.5 x the first frame's 90th percentile)",
          positiveInto([s](double v) { s->light.white = v; })},
         {"--threads", "N", "0 = all cores; the same bits for any",
-         integerInto([s](long long v) { s->options.threads = s->light.threads = static_cast<unsigned>(v); }, 0, 1024)},
+         integerInto([s](long long v) { s->plan.options.threads = s->light.threads = static_cast<unsigned>(v); }, 0,
+                     1024)},
         {"--json", "", "One JSON object on standard output", into(s->asJson)}};
 }
 

@@ -112,6 +112,28 @@ TEST(CommandTransfer, SameBitsForAnyThreadsAndVectors) {
     EXPECT_NE(coefficients({"--mask", "64"}), one);
 }
 
+TEST(CommandTransfer, PaperMethodErrsMoreAndSaysItsTable) {
+    const Scratch scratch;
+    writeFile(scratch / "corner.obj", corner());
+    const auto run = [&](const std::vector<std::string>& more) {
+        std::vector<std::string> words = {"transfer", scratch / "corner.obj", "-o",   scratch / "a.tv", "--coarse",
+                                          "0",        "--reference",          "1024", "--json"};
+        words.insert(words.end(), more.begin(), more.end());
+        const Outcome outcome = nacre(words);
+        EXPECT_EQ(outcome.code, 0) << outcome.err;
+        return json::parse(outcome.out);
+    };
+    const json ours = run({}), paper = run({"--lut", "128"});
+    EXPECT_FALSE(ours["options"].contains("lut"));
+    EXPECT_EQ(ours["options"]["rings"], 1);
+    EXPECT_EQ(paper["options"]["lut"], 128);
+    EXPECT_EQ(paper["options"]["rings"], 2);
+    EXPECT_GT(paper["error"]["l2_rel"], ours["error"]["l2_rel"]);
+    EXPECT_NE(run({"--lut", "4"})["error"], paper["error"]);
+    EXPECT_EQ(nacre({"transfer", scratch / "corner.obj", "-o", scratch / "a.tv", "--lut", "8", "--mask", "32"}).code,
+              2);
+}
+
 TEST(CommandTransfer, RightAngleIsWithinItsBound) {     // the mesh itself: what is left is the mask's
     constexpr double kMask32 = 0.02, kMask128 = 0.006;  // measured 0.0138, 0.0041
     const Scratch scratch;
@@ -234,6 +256,8 @@ TEST(CommandTransfer, WrongUsageIsTwoInOneLine) {
         {{"--reference", "0"}, "--reference"},
         {{"--clip", "run"}, "cloth has no clips"},
         {{"--weights", "1"}, "--weights"},
+        {{"--lut", "513"}, "0 to 512"},
+        {{"--lut", "128", "--order", "2"}, "--order: expected no --lut"},
         {{"--turn", "10"}, "expected --ply"},
         {{"--ply", "a#b#.ply"}, "one row of #"},
     };
