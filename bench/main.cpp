@@ -26,7 +26,7 @@ namespace fs = std::filesystem;
 struct Arguments {
     std::string out = "build/bench", shared;
     std::vector<int> sourceSizes;
-    std::vector<std::string> materials, techniques = {"factored", "environment", "bump", "shadow"};
+    std::vector<std::string> materials, techniques = {"factored", "environment", "bump", "shadow", "transfer"};
     bool quick = false, barsOnly = false, noBars = false, noGpu = false, quiet = false, list = false;
 };
 
@@ -177,6 +177,20 @@ void runShadow(const Arguments& arguments, const Progress& progress, Report& rep
     if (!arguments.barsOnly) report.shadows = sweepShadows(list.scenes, options);
 }
 
+/// A quick run: two meshes, few settings, fewer rays of the truth.
+void runTransfer(const Arguments& arguments, const Progress& progress, Report& report) {
+    const TransferMeshList list = transferMeshes(animatedFolder(), arguments.quick);
+    report.notes.insert(report.notes.end(), list.notes.begin(), list.notes.end());
+    TransferSweepOptions options;
+    options.progress = progress;
+    if (arguments.quick) options.quick = true, options.repeats = 3, options.sampled = 60, options.rays = 8192;
+    if (!arguments.noBars) {
+        const std::vector<Bar> bars = measureTransferBars(list.meshes, options);
+        report.bars.insert(report.bars.end(), bars.begin(), bars.end());
+    }
+    if (!arguments.barsOnly) report.transfers = sweepTransfer(list.meshes, options);
+}
+
 int run(const Arguments& arguments) {
     const auto start = std::chrono::steady_clock::now();
     const Progress progress = progressOn(arguments.quiet);
@@ -199,16 +213,17 @@ int run(const Arguments& arguments) {
     if (wants(arguments, "environment")) runEnvironment(arguments, progress, report);
     if (wants(arguments, "bump")) runBump(arguments, progress, report);
     if (wants(arguments, "shadow")) runShadow(arguments, progress, report);
+    if (wants(arguments, "transfer")) runTransfer(arguments, progress, report);
     report.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     if (!arguments.quiet && isatty(2) != 0) fmt::print(stderr, "\r\033[K");
     fmt::print("{}", barTable(report.bars));
     if (arguments.barsOnly) return 0;
     writeReport(report, arguments.out);
     if (!arguments.quiet)
-        fmt::print(
-            stderr, "bench: {} bakes in {:.0f} s: {}\n",
-            report.measurements.size() + report.environments.size() + report.bumps.size() + report.shadows.size(),
-            report.seconds, (fs::path(arguments.out) / "index.html").string());
+        fmt::print(stderr, "bench: {} bakes in {:.0f} s: {}\n",
+                   report.measurements.size() + report.environments.size() + report.bumps.size() +
+                       report.shadows.size() + report.transfers.size(),
+                   report.seconds, (fs::path(arguments.out) / "index.html").string());
     return 0;
 }
 
@@ -219,14 +234,14 @@ int main(int argc, char** argv) {
     nacre::bench::Arguments arguments;
     arguments.shared = nacre::bench::defaultShared();
     CLI::App app(
-        "Measures error and cost of every factorization, of prefiltered environments, of reliefs and of "
-        "shadows; writes "
+        "Measures error and cost of every factorization, of prefiltered environments, of reliefs, of "
+        "shadows and of transfer; writes "
         "report.json and index.html.");
     app.add_option("--out", arguments.out, "folder to write")->capture_default_str();
     app.add_option("--shared", arguments.shared, "folder with data/brdf and tools, for measured materials")
         ->capture_default_str();
-    app.add_option("--techniques", arguments.techniques, "only these: factored, environment, bump, shadow")
-        ->check(CLI::IsMember({"factored", "environment", "bump", "shadow"}));
+    app.add_option("--techniques", arguments.techniques, "only these: factored, environment, bump, shadow, transfer")
+        ->check(CLI::IsMember({"factored", "environment", "bump", "shadow", "transfer"}));
     app.add_option("--source-sizes", arguments.sourceSizes, "of the environments' curves: edges of the source cube")
         ->check(CLI::IsMember({32, 64, 128, 256, 512, 1024, 2048}));
     app.add_option("--materials", arguments.materials, "only these (names as --list prints them)");

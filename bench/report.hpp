@@ -10,6 +10,7 @@
 #include "bench/environment_sweep.hpp"
 #include "bench/shadow_sweep.hpp"
 #include "bench/sweep.hpp"
+#include "bench/transfer_sweep.hpp"
 
 namespace nacre::bench {
 
@@ -23,6 +24,7 @@ struct Report {
     std::vector<EnvironmentMeasurement> environments;
     std::vector<BumpMeasurement> bumps;
     std::vector<ShadowMeasurement> shadows;
+    std::vector<TransferMeasurement> transfers;
 };
 
 /// Numbers that aren't finite become the strings "inf", "-inf" and "nan".

@@ -17,7 +17,7 @@ struct Approximation {
 std::vector<Approximation> approximationsOf(const SceneDescription& scene) {
     bool brdf = false, relief = false, indirect = false, surrounding = false;
     for (const SceneNode& node : scene.nodes) {
-        if (node.mesh < 0) continue;
+        if (node.material < 0) continue;
         const SceneMaterial& m = scene.materials[static_cast<std::size_t>(node.material)];
         brdf = brdf || m.brdf >= 0;
         relief = relief || (m.relief && m.relief->shadow != BumpShadow::None);

@@ -63,6 +63,23 @@ json meshesOf(const SceneDescription& scene) {
     return out;
 }
 
+json volumesOf(const SceneDescription& scene) {
+    json out = json::array();
+    for (std::size_t i = 0; i < scene.volumes.size(); ++i) {
+        const SceneVolume& volume = scene.volumes[i];
+        const glm::ivec3& size = volume.volume->size;
+        out.push_back({{"name", volume.name},
+                       {"size", {size.x, size.y, size.z}},
+                       {"iso", volume.iso},
+                       {"method", volume.method == VolumeMethod::March ? "march" : "slices"},
+                       {"step", volume.step},
+                       {"instances", std::count_if(scene.nodes.begin(), scene.nodes.end(), [&](const SceneNode& n) {
+                            return n.volume == static_cast<int>(i);
+                        })}});
+    }
+    return out;
+}
+
 json materialsOf(const SceneDescription& scene) {
     json out = json::array();
     for (std::size_t i = 0; i < scene.materials.size(); ++i)
@@ -173,6 +190,7 @@ json sceneReport(const SceneDescription& scene, const std::vector<std::string>& 
             {"instances", instances},
             {"triangles", drawn},
             {"meshes", meshesOf(scene)},
+            {"volumes", volumesOf(scene)},
             {"materials", materialsOf(scene)},
             {"lights", lightsOf(scene)},
             {"assets", assetsOf(scene)},
@@ -193,6 +211,11 @@ std::string sceneText(const json& r) {
         out +=
             fmt::format("  mesh      {:<20} {:>9} triangles, {} vertices, {} instances\n", m["name"].get<std::string>(),
                         m["triangles"].get<std::size_t>(), m["vertices"].get<std::size_t>(), m["instances"].get<int>());
+    for (const json& v : r["volumes"])
+        out += fmt::format(
+            "  volume    {:<20} {} x {} x {} samples, surface at {:g}, {} of {:g} texels, {} instances\n",
+            v["name"].get<std::string>(), v["size"][0].get<int>(), v["size"][1].get<int>(), v["size"][2].get<int>(),
+            v["iso"].get<double>(), v["method"].get<std::string>(), v["step"].get<double>(), v["instances"].get<int>());
     for (const json& m : r["materials"])
         out += fmt::format("  material  {:<20} {}\n", m["name"].get<std::string>(), usesText(m["uses"]));
     for (const json& l : r["lights"])

@@ -4,11 +4,13 @@
 
 #include <filesystem>
 #include <glm/gtc/quaternion.hpp>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "core/scene.hpp"
+#include "core/volume.hpp"
 
 namespace nacre {
 
@@ -69,13 +71,14 @@ struct SceneMaterial {
     std::optional<SceneSurrounding> surrounding;
 };
 
-/// A mesh, or instance of one, in the hierarchy. Local to parent: translation · rotation · scale.
+/// A mesh or volume, or instance of one, in the hierarchy. Local to parent: translation · rotation · scale.
 struct SceneNode {
     std::string name;
     int parent = -1;  ///< an index below this node's own
     glm::dvec3 translation{0}, scale{1};
     glm::dquat rotation{1, 0, 0, 0};  ///< unit
-    int mesh = -1, material = -1;     ///< both or neither
+    int mesh = -1, volume = -1;  ///< one of them, with a material without relief for a volume; or none of the three
+    int material = -1;
     bool castsShadow = true, receivesShadow = true;
     bool isStatic = true;  ///< false: the node, or one above it, has a track or says so; its shadows are redrawn
 };
@@ -113,6 +116,15 @@ struct SceneMesh {
     Mesh mesh;
 };
 
+/// The surface value = iso of a volume (shading/volume_surface.hpp), in the volume's own space.
+struct SceneVolume {
+    std::string name;
+    std::shared_ptr<const Volume> volume;  ///< never null; copies of the scene share it
+    double iso = 0;
+    VolumeMethod method = VolumeMethod::March;
+    double step = 0.5;  ///< between slices or of the march [texels], > 0
+};
+
 struct SceneSky {
     int asset = -1;        ///< what the background shows; an environment map or chain, or -1 for `color`
     double lod = 0;        ///< of a chain
@@ -124,6 +136,7 @@ struct SceneDescription {
     std::filesystem::path file;  ///< read from here
     std::vector<SceneAsset> assets;
     std::vector<SceneMesh> meshes;
+    std::vector<SceneVolume> volumes;
     std::vector<SceneMaterial> materials;
     std::vector<SceneNode> nodes;
     std::vector<SceneLight> lights;

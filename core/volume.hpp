@@ -22,6 +22,12 @@ struct Volume {
     }
 };
 
+/// How a picture finds the surface. Slices: polygons across the volume, facing the camera, nearest first; fragments
+/// outside the surface are discarded, which is the paper's alpha test (HSE figure 7), and the depth test keeps the
+/// first. A surface point is up to a step off along the line of sight. March: one fragment a pixel follows its line of
+/// sight and finds the crossing within the step.
+enum class VolumeMethod { Slices, March };
+
 /// \throws std::invalid_argument: a size < 1, another number of values, values not finite, a spacing not finite or ≤ 0
 void checkVolume(const Volume& volume);
 

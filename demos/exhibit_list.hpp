@@ -1,5 +1,5 @@
 // The gallery's exhibits: environment maps (HSE figure 5, roughness sweeps, orientation) and bump maps (HSE figures 9
-// and 13), shadow maps, scenes, volumes.
+// and 13), shadow maps, scenes, volumes, transfer of moving meshes (HEMI's figures and tables).
 #pragma once
 
 #include <filesystem>
@@ -11,12 +11,13 @@
 namespace nacre {
 
 struct ExhibitOptions {
-    std::filesystem::path worldFolder;   ///< holds NAME.exr, \see demos/fetch.sh
-    std::filesystem::path heightFolder;  ///< holds NAME.bmp, the same
-    std::filesystem::path sceneFolder;   ///< holds NAME.json, whose assets are baked: demos/scenes
-    std::filesystem::path volumeFolder;  ///< holds NAME.inr, \see demos/fetch.sh
-    std::filesystem::path meshFolder;    ///< holds NAME.off, the same
-    bool quick = false;                  ///< pictures of half the edge, coarser surroundings
+    std::filesystem::path worldFolder;     ///< holds NAME.exr, \see demos/fetch.sh
+    std::filesystem::path heightFolder;    ///< holds NAME.bmp, the same
+    std::filesystem::path sceneFolder;     ///< holds NAME.json, whose assets are baked: demos/scenes
+    std::filesystem::path volumeFolder;    ///< holds NAME.inr, \see demos/fetch.sh
+    std::filesystem::path meshFolder;      ///< holds NAME.off, the same
+    std::filesystem::path animatedFolder;  ///< holds meshes that move, the same
+    bool quick = false;                    ///< pictures of half the edge, coarser surroundings
     int timingRepeats = 5;
     Progress progress{};
 };

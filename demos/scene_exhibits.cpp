@@ -28,13 +28,21 @@ constexpr const char* kPlainScene = R"({
   "camera": {"eye": [0.5, 2.2, 4.6], "target": [0, 0.9, 0], "fovYDeg": 40, "near": 0.5, "far": 40}
 })";
 
-SceneDescription openScene(const Task& task) {
+/// That of the folder, or a plain one where a file of it is missing.
+SceneDescription openScene(const Task& task, const char* name, SceneDescription (*plain)()) {
     try {
-        return readScene(task.options.sceneFolder / "composed.json");
+        return readScene(task.options.sceneFolder / name);
     } catch (const Error& error) {
-        task.notes.push_back(fmt::format("{}: a plain scene stands in for composed.json ({})", task.id, error.what()));
-        return parseScene(kPlainScene, "plain.json");
+        task.notes.push_back(fmt::format("{}: a plain scene stands in for {} ({})", task.id, name, error.what()));
+        return plain();
     }
+}
+
+/// A mask of every pixel.
+Image wholePicture(int width, int height) {
+    Image out(width, height, 1);
+    for (float& v : out.data()) v = 1;
+    return out;
 }
 
 /// An approximation switched off in the picture, and the same light left out of the reference.
@@ -62,7 +70,8 @@ std::vector<Part> partsOf(const SceneDescription& scene) {
 
 Exhibit composed(const Task& task) {
     const int width = task.size(480), height = task.size(360);
-    SceneRenderer renderer(task.loader, openScene(task));
+    SceneRenderer renderer(task.loader,
+                           openScene(task, "composed.json", [] { return parseScene(kPlainScene, "plain.json"); }));
     const SceneDescription& scene = renderer.scene();
     const std::vector<Part> parts = partsOf(scene);
     std::vector<SceneParts> traced;
@@ -71,8 +80,7 @@ Exhibit composed(const Task& task) {
     report(task.options.progress, task.id + ": reference", 0);
     const std::vector<Image> truths = traceScene(scene, scene.camera, openTruths(scene), traced,
                                                  {.width = width, .height = height, .supersample = kSupersample});
-    Image everywhere(width, height, 1);
-    for (float& v : everywhere.data()) v = 1;
+    const Image everywhere = wholePicture(width, height);
     ExhibitBuilder builder(task.loader, task.id, task.builder());
     const auto panel = [&](const std::string& label, const SceneSwitches& switches, const Image& truth) {
         const auto draw = [&renderer, switches](const RenderTarget& target) {
@@ -193,11 +201,88 @@ Exhibit volume(const Task& task) {
     return e;
 }
 
+/// Stands in for the scans.
+SceneDescription plainScans() {
+    SceneDescription scene = parseScene(kPlainScene, "plain.json");
+    SceneVolume ball;
+    ball.name = "ball";
+    ball.volume = std::make_shared<Volume>(wavyBall());
+    scene.volumes.push_back(std::move(ball));
+    SceneNode node;
+    node.name = "ball";
+    node.volume = 0;
+    node.material = scene.nodes.front().material;
+    node.translation = {0.5, 1, -1};
+    scene.nodes.push_back(std::move(node));
+    return scene;
+}
+
+void setMethod(SceneDescription& scene, VolumeMethod method) {
+    for (SceneVolume& volume : scene.volumes) volume.method = method;
+}
+
+Exhibit shadowedVolumes(const Task& task) {
+    const int width = task.size(480), height = task.size(320);
+    SceneDescription scene = openScene(task, "scans.json", plainScans);
+    report(task.options.progress, task.id + ": reference", 0);
+    SceneParts open;
+    open.shadows = false;
+    const std::vector<Image> truths = traceScene(scene, scene.camera, openTruths(scene), {{}, open},
+                                                 {.width = width, .height = height, .supersample = kSupersample});
+    const Image everywhere = wholePicture(width, height);
+    setMethod(scene, VolumeMethod::March);
+    SceneRenderer march(task.loader, scene);
+    setMethod(scene, VolumeMethod::Slices);
+    SceneRenderer slices(task.loader, scene);
+    ExhibitBuilder builder(task.loader, task.id, task.builder());
+    const auto panel = [&](const std::string& label, SceneRenderer& renderer, bool shadows, bool again) {
+        const auto draw = [&renderer, shadows, again, brighter = false](const RenderTarget& target) mutable {
+            renderer.switches.shadows = shadows;
+            if (again) {  // a light that changes has its map drawn again; nobody sees this change
+                brighter = !brighter;
+                SceneLight light = renderer.scene().lights.front();
+                light.light.color *= brighter ? 1 + 1e-6 : 1 / (1 + 1e-6);
+                renderer.setLight(0, light);
+            }
+            renderer.render(target);
+        };
+        builder.panel(label, draw, {truths[shadows ? 0 : 1], everywhere});
+    };
+    builder.row("Shadow maps hold the volumes' surfaces: on the floor, on each other, on themselves");
+    panel("marched, in the picture and in the map", march, true, false);
+    panel("the same, the map drawn again for each frame", march, true, true);
+    builder.row("Slices and an alpha test, in the picture and in the map", false);
+    panel("slices, as in the paper", slices, true, false);
+    panel("the same, the map drawn again for each frame", slices, true, true);
+    builder.row("Without shadows, against the truth without: what a shadowed frame costs more", false);
+    panel("marched", march, false, false);
+    panel("slices", slices, false, false);
+    Exhibit e;
+    e.section = "Volumes (HSE figure 7)";
+    e.title = "Scans on a floor, shadowed by the map of a spot light";
+    e.caption =
+        "The light's depth map is drawn with the meshes and with the volumes, by slices that face the light and the "
+        "alpha test, or by a march along each texel's ray. A volume's point is looked up with the normal of the "
+        "field's "
+        "gradient; a slice, which may lie a step inside, half a step further out. The maps are kept while nothing "
+        "moves. "
+        "The "
+        "reference follows rays to the light past triangles and through the same trilinear fields.";
+    e.scene = fmt::format("{} volumes, {} meshes, a spot light.", scene.volumes.size(), scene.meshes.size());
+    if (!scene.file.empty() && scene.file.filename() == "scans.json")
+        e.commands = {"nacre render demos/scenes/scans.json -o scans.png --shares",
+                      "nacre info demos/scenes/scans.json"};
+    builder.finish(e);
+    return e;
+}
+
 }  // namespace
 
 const std::vector<NamedExhibit>& sceneExhibits() {
-    static const std::vector<NamedExhibit> all = {
-        {"shadow-study", shadowStudyExhibit}, {"scene-composed", composed}, {"volume-surface", volume}};
+    static const std::vector<NamedExhibit> all = {{"shadow-study", shadowStudyExhibit},
+                                                  {"scene-composed", composed},
+                                                  {"volume-surface", volume},
+                                                  {"volume-shadows", shadowedVolumes}};
     return all;
 }
 

@@ -10,7 +10,7 @@
 #include "core/parallel.hpp"
 #include "core/sampling.hpp"
 #include "reference/camera_rays.hpp"
-#include "reference/surface_point.hpp"
+#include "reference/scene_rays.hpp"
 
 namespace nacre {
 namespace {
@@ -60,46 +60,6 @@ Vec3 turnedTo(const Vec3& n, const Vec3& d) {
     const Vec3 helper = std::abs(n.x) < 0.5 ? Vec3(1, 0, 0) : Vec3(0, 1, 0);
     const Vec3 t = glm::normalize(glm::cross(helper, n)), b = glm::cross(n, t);
     return d.x * t + d.y * b + d.z * n;
-}
-
-/// All nodes' meshes in the world as one, and which node a triangle belongs to.
-struct World {
-    Mesh mesh;
-    std::vector<std::size_t> firstTriangle, nodes;
-
-    void add(std::size_t node, const Mesh& part) {
-        const auto first = static_cast<unsigned>(mesh.positions.size());
-        firstTriangle.push_back(mesh.triangles.size());
-        nodes.push_back(node);
-        mesh.positions.insert(mesh.positions.end(), part.positions.begin(), part.positions.end());
-        mesh.normals.insert(mesh.normals.end(), part.normals.begin(), part.normals.end());
-        mesh.tangents.insert(mesh.tangents.end(), part.tangents.begin(), part.tangents.end());
-        mesh.uvs.insert(mesh.uvs.end(), part.uvs.begin(), part.uvs.end());
-        for (const glm::uvec3& t : part.triangles) mesh.triangles.push_back(t + first);
-    }
-    std::size_t nodeOf(std::uint32_t triangle) const {
-        const auto after = std::upper_bound(firstTriangle.begin(), firstTriangle.end(), std::size_t{triangle});
-        return nodes[static_cast<std::size_t>(after - firstTriangle.begin()) - 1];
-    }
-};
-
-void checkMesh(const Mesh& mesh, const std::string& name) {
-    const std::size_t n = mesh.positions.size();
-    require(mesh.normals.size() == n && mesh.tangents.size() == n && mesh.uvs.size() == n,
-            fmt::format("traceScene: mesh '{}' needs a normal, a tangent and a uv for each position", name));
-    for (const glm::vec3& p : mesh.positions)
-        require(isFinite(Vec3(p)), fmt::format("traceScene: mesh '{}': a position is not finite", name));
-}
-
-World worldOf(const SceneDescription& scene, const std::vector<glm::dmat4>& nodes, bool castersAlone) {
-    World out;
-    for (std::size_t i = 0; i < scene.nodes.size(); ++i) {
-        if (scene.nodes[i].mesh < 0 || (castersAlone && !scene.nodes[i].castsShadow)) continue;
-        const SceneMesh& mesh = scene.meshes.at(static_cast<std::size_t>(scene.nodes[i].mesh));
-        checkMesh(mesh.mesh, mesh.name);
-        out.add(i, transformed(mesh.mesh, nodes[i]));
-    }
-    return out;
 }
 
 /// Normal of the patch at a point [texels]; +z where there is none.
@@ -159,9 +119,7 @@ public:
           options_(options),
           nodes_(nodeTransforms(scene, options.time)),
           lights_(lightsInWorld(scene, nodes_)),
-          world_(worldOf(scene, nodes_, false)),
-          all_(world_.mesh),
-          casters_(worldOf(scene, nodes_, true).mesh),
+          surfaces_(scene, nodes_),
           rays_(camera, options.width, options.height, options.supersample),
           turn_(Mat3(glm::rotate(glm::dmat4(1), -scene.sky.rotationY, Vec3(0, 1, 0)))) {
         for (const SceneParts& p : parts) occlusion_ = occlusion_ || p.occlusion;
@@ -172,12 +130,12 @@ public:
         for (int k = 0; k < rays_.samples(); ++k) {
             const Ray ray = rays_.at(x, y, k);
             const Vec3 direction = glm::normalize(ray.direction);
-            const RayHit hit = all_.firstHit(ray);
-            if (!hit.found) {
+            const std::optional<SceneRays::Hit> hit = surfaces_.firstHit(ray, -direction);
+            if (!hit) {
                 for (std::size_t i = 0; i < sums.size(); ++i) sums[i] += background(parts_[i], direction);
                 continue;
             }
-            Point point = pointAt(hit, -direction);
+            Point point = pointAt(*hit);
             point.pixel = static_cast<std::uint64_t>(y) * options_.width + x;
             point.ray = static_cast<unsigned>(k);
             for (std::size_t i = 0; i < sums.size(); ++i) sums[i] += radiance(point, parts_[i]);
@@ -200,7 +158,7 @@ private:
         const MaterialTruth* truth = nullptr;
         Vec2 at{0};                       ///< in the relief [texels]
         Vec3 reliefNormal{0, 0, 1};       ///< in the mesh's frame
-        std::vector<int> shadowed, dark;  ///< a light: by meshes, by the relief; −1 = not asked
+        std::vector<int> shadowed, dark;  ///< a light: by other surfaces, by the relief; −1 = not asked
         std::optional<Rgb> indirect;
         std::optional<Blocked> blocked[2];  ///< without and with the relief's normal
         std::optional<Rgb> mirrorBlocked[2];
@@ -211,10 +169,10 @@ private:
         return truths_.sky ? truths_.sky(turn_ * direction) : scene_.sky.color;
     }
 
-    Point pointAt(const RayHit& hit, const Vec3& toEye) const {
+    Point pointAt(const SceneRays::Hit& hit) const {
         Point p;
-        p.s = surfaceAt(world_.mesh, hit, toEye);
-        p.node = world_.nodeOf(hit.triangle);
+        p.s = hit.s;
+        p.node = hit.node;
         const auto material = static_cast<std::size_t>(scene_.nodes[p.node].material);
         p.material = &scene_.materials.at(material);
         p.truth = &truths_.materials[material];
@@ -245,14 +203,12 @@ private:
         return out;
     }
 
-    double skip() const { return 1e-4 * all_.size(); }  // past the triangle itself: positions are single precision
-
     bool shadowed(Point& p, std::size_t light, const Vec3& offset) const {
         if (!scene_.lights[light].shadow || !scene_.nodes[p.node].receivesShadow) return false;
         if (p.shadowed[light] < 0) {
             const double length = glm::length(offset);
-            const double end = lights_[light].directional ? std::numeric_limits<float>::max() : length - skip();
-            p.shadowed[light] = casters_.occluded({p.s.position, offset / length, skip(), end});
+            const double distance = lights_[light].directional ? std::numeric_limits<double>::infinity() : length;
+            p.shadowed[light] = surfaces_.shadowed(p.s.position, offset / length, distance);
         }
         return p.shadowed[light] != 0;
     }
@@ -313,7 +269,7 @@ private:
             if (cosine <= 0) continue;
             const Vec3 local = toLocal(p.s, d);
             const bool byRelief = relief && (local.z <= 0 || !isLit(p.truth->relief->rays, p.at, local));
-            const bool byAll = byRelief || (occlusion_ && blockedByMeshes(p, d));
+            const bool byAll = byRelief || (occlusion_ && surfaces_.blocked(p.s.position, d));
             if (!byAll) continue;
             double weight = 1.0 / rays;
             if (bright != nullptr) {
@@ -326,9 +282,6 @@ private:
         }
         return *(kept = sum);
     }
-    bool blockedByMeshes(const Point& p, const Vec3& d) const {
-        return all_.occluded({p.s.position, d, skip(), std::numeric_limits<float>::max()});
-    }
     Rgb mirrorBlocked(Point& p, const Vec3& r, bool relief) const {
         std::optional<Rgb>& kept = p.mirrorBlocked[relief];
         if (kept) return *kept;
@@ -339,7 +292,7 @@ private:
         for (int i = 0; i < rays; ++i) {
             const auto [d, weight] = lobeSample(p.truth->reflectionLobe, r, next());
             weights += weight;
-            if (weight > 0 && blockedByMeshes(p, d)) sum += weight * p.truth->reflectionSource(turn_ * d);
+            if (weight > 0 && surfaces_.blocked(p.s.position, d)) sum += weight * p.truth->reflectionSource(turn_ * d);
         }
         return *(kept = weights > 0 ? sum / weights : Rgb(0));
     }
@@ -387,8 +340,7 @@ private:
     const SceneTraceOptions& options_;
     std::vector<glm::dmat4> nodes_;
     std::vector<Light> lights_;
-    World world_;
-    EmbreeScene all_, casters_;
+    SceneRays surfaces_;
     CameraRays rays_;
     Mat3 turn_;
     bool occlusion_ = false;

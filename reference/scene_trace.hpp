@@ -11,14 +11,14 @@ namespace nacre {
 /// What light a picture has: the same words as SceneSwitches of shading/scene_programs.hpp.
 struct SceneParts {
     bool lamps = true, ambient = true;
-    bool shadows = true;       ///< of meshes on meshes, for lights that have a SceneShadow
+    bool shadows = true;       ///< of surfaces on surfaces, for lights that have a SceneShadow
     bool relief = true;        ///< bumped normals, and all of a relief's light
     bool reliefShadow = true;  ///< the relief on itself: of lamps, ambient and diffuse light
     bool indirect = true;      ///< bounced light in reliefs
     bool surrounding = true;
     bool sky = true;
     bool bakedBrdf = false;  ///< the baked BRDF in place of the unfactored one
-    bool occlusion = false;  ///< meshes block the surrounding's light (reflected and diffuse, not transmitted)
+    bool occlusion = false;  ///< surfaces block the surrounding's light (reflected and diffuse, not transmitted)
 };
 
 struct SceneTraceOptions {
@@ -33,7 +33,8 @@ struct SceneTraceOptions {
     Progress progress{};
 };
 
-/// One picture for each of `parts`, of the same rays. At the first triangle between near and far plane, either side:
+/// One picture for each of `parts`, of the same rays. At the first triangle between near and far plane, either side, or
+/// the first point inside a volume's surface (volume_field.hpp), whatever comes first:
 ///   lamps        Σ f · cosα · irradiance, f unfactored; shadow rays to lights with a SceneShadow past nodes that cast
 ///   relief       the normal of the height field's own patch at uv · tiles; where that faces away from the eye it is
 ///                tilted as the shader does; a lamp is dark below the exact horizon and where the mesh faces away

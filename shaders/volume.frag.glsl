@@ -1,8 +1,18 @@
-// The surface in a volume, lit by lamps. Slices: what of the polygon is inside, as an alpha test keeps it; the depth is
-// the polygon's. Marched: the first crossing of the line of sight, with its own depth.
-#include "nacre/bind/lamps.glsl"
+// The surface in a volume: light of lamps (#define NACRE_SCENE_LAMPS) and of the surrounding (NACRE_SCENE_SURROUNDING).
+// Slices: what of the polygon is inside, as an alpha test keeps it; the depth is the polygon's. Marched: the first
+// crossing of the line of sight, with its own depth.
+#include "nacre/bind/bump.glsl"
+#include "nacre/bind/lights.glsl"
 #include "nacre/bind/view.glsl"
 #include "nacre/bind/volume.glsl"
+#include "nacre/frame.glsl"
+#include "nacre/light.glsl"
+#ifdef NACRE_SCENE_LAMPS
+#include "nacre/bind/lamps.glsl"
+#endif
+#ifdef NACRE_SCENE_SURROUNDING
+#include "nacre/bind/environment.glsl"
+#endif
 
 #ifdef NACRE_VOLUME_MARCH
 in vec3 v_near;
@@ -20,13 +30,24 @@ void main() {
     vec4 clip = nacre_world_to_clip * vec4(position, 1.0);
     gl_FragDepth = 0.5 * clip.z / clip.w + 0.5;
     bool kept = t <= 1.0;
+    float lift = 0.0;
 #else
     vec3 position = v_position;
     bool kept = nacre_volume_inside(position);
+    float lift = 0.5 * nacre_volume_step;  // a slice is so far inside on average
 #endif
     vec3 to_eye = nacre_direction_to(nacre_eye, position);
-    mat3 frame = nacre_frame(nacre_volume_outward(position, to_eye), vec4(0.0, 0.0, 0.0, 1.0));
+    vec3 outward = nacre_volume_outward(position, to_eye);
+    mat3 frame = nacre_frame(outward, vec4(0.0, 0.0, 0.0, 1.0));
     NacreBump point = nacre_bump_point(frame, 1.0, vec2(0.0), to_eye);
-    color = vec4(nacre_ambient + nacre_lamps(point, to_eye, position), 1.0);
+    vec3 sum = nacre_ambient;
+#ifdef NACRE_SCENE_LAMPS
+    // Derivatives know the triangle that stands for the surface, the field's gradient its normal.
+    sum += nacre_lamps_by(point, to_eye, position, position + lift * outward, outward);
+#endif
+#ifdef NACRE_SCENE_SURROUNDING
+    sum += nacre_env_radiance(to_eye, outward, 1.0);
+#endif
+    color = vec4(sum, 1.0);
     if (!kept) discard;
 }

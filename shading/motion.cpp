@@ -26,8 +26,10 @@ static AnimatedMesh chess(const MotionOptions& options) {
     if (options.chessPieces.empty()) return chessAnimation(turnedChessSet(), out);
     ChessSet set;
     const char* const names[] = {"king", "queen", "rook", "bishop", "knight", "pawn"};
-    for (std::size_t i = 0; i < set.size(); ++i)
+    for (std::size_t i = 0; i < set.size(); ++i) {
         set[i] = loadMesh(options.chessPieces / (std::string(names[i]) + ".obj")).mesh;
+        for (glm::vec3& p : set[i].positions) p = {-p.z, p.y, p.x};  // brutalchess's look along −x, ours along −z
+    }
     return chessAnimation(set, out);
 }
 

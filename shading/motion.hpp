@@ -10,7 +10,7 @@ struct MotionOptions {
     double framesPerSecond = 0;         ///< 0: the file's; 30 for what is built in
     int frames = 0;                     ///< the first so many; 0: all (cloth: 300)
     std::uint64_t seed = 1;             ///< of the cloth's breeze
-    std::filesystem::path chessPieces;  ///< folder with king.obj … pawn.obj; empty: turned pieces
+    std::filesystem::path chessPieces;  ///< king.obj … pawn.obj as brutalchess has them; empty: turned pieces
     std::function<void(const std::string&)> note{};
 };
 

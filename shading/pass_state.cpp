@@ -90,14 +90,18 @@ void setModel(const Program& program, const glm::dmat4& toWorld) {
     program.set("nacre_mesh_handedness", mirrors(toWorld) ? -1.0f : 1.0f);
 }
 
-void drawMesh(const Program& program, const RenderTarget& target, const GpuMesh& mesh, const glm::dmat4& toWorld) {
-    setModel(program, toWorld);
+void setDrawState(const RenderTarget& target) {
     target.bind();
     glEnable(GL_DEPTH_TEST);
     glDepthFunc(GL_LESS);
     glDepthMask(GL_TRUE);
     glDisable(GL_CULL_FACE);
     glDisable(GL_BLEND);
+}
+
+void drawMesh(const Program& program, const RenderTarget& target, const GpuMesh& mesh, const glm::dmat4& toWorld) {
+    setModel(program, toWorld);
+    setDrawState(target);
     glFrontFace(mirrors(toWorld) ? GL_CW : GL_CCW);
     program.use();
     mesh.draw();

@@ -29,7 +29,10 @@ inline constexpr int kShadowUnit = 13;
 /// Uniforms of nacre/bind/model.glsl. Leaves `program` in use. \throws std::invalid_argument unless toWorld is finite
 void setModel(const Program& program, const glm::dmat4& toWorld);
 
-/// Binds the target and draws with depth test and depth write on, face culling and blending off; leaves these so. Front
+/// Binds the target; depth test and depth write on, face culling and blending off.
+void setDrawState(const RenderTarget& target);
+
+/// Draws in that state, and leaves it so. Front
 /// faces are those seen from outside, mirrored or not; afterwards counter-clockwise ones again.
 void drawMesh(const Program& program, const RenderTarget& target, const GpuMesh& mesh,
               const glm::dmat4& toWorld = glm::dmat4(1));

@@ -12,15 +12,25 @@ std::vector<SceneBounds> meshBounds(const SceneDescription& scene) {
     return out;
 }
 
+/// Meshes' boxes, or a volume's own.
+SceneBounds ownBounds(const SceneDescription& scene, const SceneNode& node, const std::vector<SceneBounds>& meshes) {
+    if (node.mesh >= 0) return meshes[static_cast<std::size_t>(node.mesh)];
+    SceneBounds out;
+    if (node.volume < 0) return out;
+    const glm::dmat4 box = volumeToLocal(*scene.volumes[static_cast<std::size_t>(node.volume)].volume);
+    out.add(Vec3(box * Vec4(0, 0, 0, 1)));
+    out.add(Vec3(box * Vec4(1, 1, 1, 1)));
+    return out;
+}
+
 void addMoment(SceneBounds& out, const SceneDescription& scene, const std::vector<SceneBounds>& meshes, double time) {
     const std::vector<glm::dmat4> places = nodeTransforms(scene, time);
     for (std::size_t i = 0; i < scene.nodes.size(); ++i) {
-        if (scene.nodes[i].mesh < 0) continue;
-        const SceneBounds& mesh = meshes[static_cast<std::size_t>(scene.nodes[i].mesh)];
-        if (mesh.empty) continue;
+        const SceneBounds own = ownBounds(scene, scene.nodes[i], meshes);
+        if (own.empty) continue;
         for (int corner = 0; corner < 8; ++corner) {
-            const Vec4 point(corner & 1 ? mesh.high.x : mesh.low.x, corner & 2 ? mesh.high.y : mesh.low.y,
-                             corner & 4 ? mesh.high.z : mesh.low.z, 1);
+            const Vec4 point(corner & 1 ? own.high.x : own.low.x, corner & 2 ? own.high.y : own.low.y,
+                             corner & 4 ? own.high.z : own.low.z, 1);
             out.add(Vec3(places[i] * point));
         }
     }

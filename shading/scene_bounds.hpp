@@ -5,17 +5,17 @@
 
 namespace nacre {
 
-/// A box about everything that has a mesh, at one moment or over the whole animation.
+/// A box about everything that has a mesh or volume, at one moment or over the whole animation.
 struct SceneBounds {
     Vec3 low{0}, high{0};
-    bool empty = true;  ///< no node has a mesh
+    bool empty = true;  ///< no node has either
 
     Vec3 centre() const { return 0.5 * (low + high); }
     double radius() const { return 0.5 * glm::length(high - low); }
     void add(const Vec3& point);
 };
 
-/// A box about the meshes' boxes where the nodes place them at `time` [s]: never too small.
+/// A box about the meshes' and volumes' boxes where the nodes place them at `time` [s]: never too small.
 SceneBounds boundsAt(const SceneDescription& scene, double time);
 /// The same over the animation, at 32 moments and every key frame (1024 at most).
 SceneBounds boundsOf(const SceneDescription& scene);

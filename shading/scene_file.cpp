@@ -39,14 +39,16 @@ public:
     }
 
     ImportedScene read() {
-        root_.requireKeys({"$schema", "nacre_scene", "assets", "meshes", "materials", "lights", "nodes", "camera",
-                           "sky", "animation"});
+        root_.requireKeys({"$schema", "nacre_scene", "assets", "meshes", "volumes", "materials", "lights", "nodes",
+                           "camera", "sky", "animation"});
         if (const JsonField version = root_.at("nacre_scene"); version.integer(0, 1 << 30) != 1)
             version.fail(fmt::format("expected version 1, found {}", version.value().dump()));
         if (const auto schema = root_.find("$schema")) schema->text();
-        names_ = {namesOf("assets"), namesOf("meshes"), namesOf("materials"), namesOf("lights"), namesOf("nodes")};
+        names_ = {namesOf("assets"),    namesOf("meshes"), namesOf("volumes"),
+                  namesOf("materials"), namesOf("lights"), namesOf("nodes")};
         readAssets();
         for (const auto& [name, f] : section("meshes")) scene().meshes.push_back(sceneMesh(name, f, folder_));
+        for (const auto& [name, f] : section("volumes")) scene().volumes.push_back(sceneVolume(name, f, folder_));
         for (const auto& [name, f] : section("materials")) scene().materials.push_back(sceneMaterial(name, f, names_));
         for (const auto& [name, f] : section("lights")) scene().lights.push_back(sceneLight(name, f, names_));
         readNodes();
@@ -175,9 +177,12 @@ private:
 
     /// A relief lies in the mesh's uv, along ∂P/∂u.
     void requireUv(const JsonField& field, const SceneNode& node) const {
-        if (node.mesh < 0) return;
+        if (node.material < 0) return;
         const SceneMaterial& material = out_.scene.materials[static_cast<std::size_t>(node.material)];
         if (!material.relief) return;
+        if (node.volume >= 0)
+            field.fail(fmt::format("expected a material without relief for a volume, found \"{}\"", material.name));
+        if (node.mesh < 0) return;
         const SceneMesh& mesh = out_.scene.meshes[static_cast<std::size_t>(node.mesh)];
         if (!hasUv(mesh.mesh))
             field.fail(fmt::format("expected a mesh with uv for the relief of \"{}\", found none in \"{}\"",

@@ -11,7 +11,7 @@ static void shift(int& index, int by) {
 
 MergedParts mergeParts(SceneDescription& to, SceneDescription& from, const std::string& prefix) {
     const MergedParts parts{static_cast<int>(to.assets.size()), static_cast<int>(to.meshes.size()),
-                            static_cast<int>(to.materials.size())};
+                            static_cast<int>(to.volumes.size()), static_cast<int>(to.materials.size())};
     const int lights = static_cast<int>(to.lights.size());  // of the instance that comes next
     for (SceneAsset& asset : std::exchange(from.assets, {})) {
         asset.name = prefix + asset.name;
@@ -22,6 +22,10 @@ MergedParts mergeParts(SceneDescription& to, SceneDescription& from, const std::
         to.meshes.push_back(std::move(mesh));
     }
     from.meshes.clear();
+    for (SceneVolume& volume : std::exchange(from.volumes, {})) {
+        volume.name = prefix + volume.name;
+        to.volumes.push_back(std::move(volume));
+    }
     for (SceneMaterial& material : std::exchange(from.materials, {})) {
         material.name = prefix + material.name;
         shift(material.brdf, parts.assets);
@@ -45,6 +49,7 @@ void mergeInstance(SceneDescription& to, const SceneDescription& from, const Mer
         node.name = prefix + node.name;
         node.parent = node.parent < 0 ? parent : node.parent + nodes;
         shift(node.mesh, parts.meshes);
+        shift(node.volume, parts.volumes);
         if (node.material >= 0) node.material = material >= 0 ? material : node.material + parts.materials;
         to.nodes.push_back(std::move(node));
     }

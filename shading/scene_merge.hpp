@@ -7,10 +7,11 @@ namespace nacre {
 
 /// Where the shared parts of a merged scene begin.
 struct MergedParts {
-    int assets = 0, meshes = 0, materials = 0;
+    int assets = 0, meshes = 0, volumes = 0, materials = 0;
 };
 
-/// Appends assets, meshes and materials of `from`, which keeps nodes, lights and tracks alone. \param prefix  of names
+/// Appends assets, meshes, volumes and materials of `from`, which keeps nodes, lights and tracks alone. \param prefix
+/// of names
 MergedParts mergeParts(SceneDescription& to, SceneDescription& from, const std::string& prefix);
 
 /// Appends nodes, lights and tracks of `from` under the node `parent`; as often as there shall be instances, the first

@@ -211,9 +211,18 @@ void checkScene(const SceneDescription& scene, const std::vector<AssetTraits>& a
         check.index(node.parent, i, "parent");
         check.index(node.mesh, scene.meshes.size(), "mesh");
         check.index(node.material, scene.materials.size(), "material");
-        require((node.mesh < 0) == (node.material < 0),
-                called("node", node.name, i) + ": expected mesh and material, or neither");
-        checkUv(scene, node, called("node", node.name, i));
+        check.index(node.volume, scene.volumes.size(), "volume");
+        require((node.mesh < 0 && node.volume < 0) == (node.material < 0) && (node.mesh < 0 || node.volume < 0),
+                called("node", node.name, i) + ": expected mesh or volume and material, or none");
+        if (node.volume >= 0 && scene.materials[static_cast<std::size_t>(node.material)].relief)
+            throw Error(called("node", node.name, i) + ": expected a material without relief for a volume, found '" +
+                        scene.materials[static_cast<std::size_t>(node.material)].name + "'");
+    }
+    for (std::size_t i = 0; i < scene.volumes.size(); ++i) {
+        const SceneVolume& volume = scene.volumes[i];
+        require(volume.volume != nullptr, called("volume", volume.name, i) + ": none");
+        require(std::isfinite(volume.iso) && std::isfinite(volume.step) && volume.step > 0,
+                called("volume", volume.name, i) + ": expected iso and step finite, step > 0");
     }
     for (std::size_t i = 0; i < scene.lights.size(); ++i)
         MaterialCheck(scene, assets, called("light", scene.lights[i].name, i))
@@ -276,15 +285,34 @@ SceneProgram materialProgram(const SceneDescription& scene, const SceneMaterial&
     return {"lit.vert.glsl", "scene.frag.glsl", std::move(defines)};
 }
 
+SceneSwitches volumeSwitches(SceneSwitches switches) {
+    if (switches.reflectance == SceneReflectance::FastPhong) switches.reflectance = SceneReflectance::FactoredOrModel;
+    return switches;
+}
+
+SceneProgram volumeProgram(const SceneDescription& scene, const SceneVolume& volume, const SceneMaterial& m,
+                           const std::vector<AssetTraits>& assets, const SceneSwitches& switches,
+                           const ShaderDefines& shadows) {
+    SceneProgram out = materialProgram(scene, m, assets, volumeSwitches(switches), shadows);
+    out.vertex = "volume.vert.glsl";
+    out.fragment = "volume.frag.glsl";
+    if (volume.method == VolumeMethod::March) out.defines.emplace_back("NACRE_VOLUME_MARCH", "1");
+    return out;
+}
+
 std::vector<ListedProgram> scenePrograms(const SceneDescription& scene, const std::vector<AssetTraits>& assets,
                                          const SceneSwitches& switches) {
     const ShaderDefines shadows = switches.shadows ? shadowDefinesOf(scene) : ShaderDefines();
     std::vector<ListedProgram> out;
     for (std::size_t i = 0; i < scene.nodes.size(); ++i) {
-        if (scene.nodes[i].mesh < 0) continue;
-        const SceneMaterial& material = scene.materials.at(static_cast<std::size_t>(scene.nodes[i].material));
-        SceneProgram program = materialProgram(scene, material, assets, switches,
-                                               scene.nodes[i].receivesShadow ? shadows : ShaderDefines());
+        const SceneNode& node = scene.nodes[i];
+        if (node.material < 0) continue;
+        const SceneMaterial& material = scene.materials.at(static_cast<std::size_t>(node.material));
+        const ShaderDefines received = node.receivesShadow ? shadows : ShaderDefines();
+        SceneProgram program = node.mesh >= 0
+                                   ? materialProgram(scene, material, assets, switches, received)
+                                   : volumeProgram(scene, scene.volumes.at(static_cast<std::size_t>(node.volume)),
+                                                   material, assets, switches, received);
         auto known = std::find_if(out.begin(), out.end(), [&](const ListedProgram& p) { return p.program == program; });
         if (known == out.end()) known = out.insert(out.end(), {std::move(program), {}});
         known->nodes.push_back(static_cast<int>(i));

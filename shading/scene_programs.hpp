@@ -15,8 +15,8 @@
 namespace nacre {
 
 /// How lamps' light on a material is computed. FactoredOrModel: as the material says. Direct: by the model's formula
-/// in the shader where the asset was baked from one that has it. FastPhong: factored or model, addressed per vertex
-/// (HSE section 1.1): of at most kMaxVertexLights lights, without relief, shadows and surrounding.
+/// in the shader where the asset was baked from one that has it. FastPhong: meshes alone, factored or model, addressed
+/// per vertex (HSE section 1.1): of at most kMaxVertexLights lights, without relief, shadows and surrounding.
 enum class SceneReflectance { FactoredOrModel, Direct, FastPhong };
 
 /// The approximations of a picture, each to be switched off by itself.
@@ -65,6 +65,15 @@ bool takesLamps(const SceneDescription& scene, const SceneMaterial& material, co
 SceneProgram materialProgram(const SceneDescription& scene, const SceneMaterial& material,
                              const std::vector<AssetTraits>& assets, const SceneSwitches& switches,
                              const ShaderDefines& shadows = {});
+
+/// The program that draws a volume of this material.
+SceneProgram volumeProgram(const SceneDescription& scene, const SceneVolume& volume, const SceneMaterial& material,
+                           const std::vector<AssetTraits>& assets, const SceneSwitches& switches,
+                           const ShaderDefines& shadows = {});
+
+/// What of the switches holds for volumes, which have no vertices to address textures from: FastPhong is
+/// FactoredOrModel.
+SceneSwitches volumeSwitches(SceneSwitches switches);
 
 /// The relief that is drawn under these switches: none, or the material's with what they leave of it.
 std::optional<SceneRelief> reliefOf(const SceneMaterial& material, const std::vector<AssetTraits>& assets,

@@ -15,6 +15,7 @@
 #include "shading/mean_light.hpp"
 #include "shading/pass_state.hpp"
 #include "shading/shadow_map.hpp"
+#include "shading/volume_pass.hpp"
 
 namespace nacre {
 namespace {
@@ -74,6 +75,7 @@ struct LightShadow {
     std::optional<ShadowMap> map;
     Light light;
     std::vector<ShadowCaster> casters;
+    std::vector<VolumeSurface> volumes;
     Bounds bounds;
     glm::dmat4 camera{0};  ///< of cascades
 };
@@ -81,6 +83,13 @@ struct LightShadow {
 bool sameCasters(const std::vector<ShadowCaster>& a, const std::vector<ShadowCaster>& b) {
     return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](const ShadowCaster& x, const ShadowCaster& y) {
         return x.mesh == y.mesh && x.toWorld == y.toWorld;
+    });
+}
+
+bool sameVolumes(const std::vector<VolumeSurface>& a, const std::vector<VolumeSurface>& b) {
+    return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](const VolumeSurface& x, const VolumeSurface& y) {
+        return x.volume == y.volume && x.toWorld == y.toWorld && x.iso == y.iso && x.step == y.step &&
+               x.method == y.method;
     });
 }
 
@@ -135,6 +144,7 @@ struct SceneRenderer::State {
     SceneAssets assets;
     std::vector<AssetTraits> traits;
     std::vector<DrawnMesh> meshes;
+    std::map<std::shared_ptr<const Volume>, GpuVolume> volumes;
     std::vector<std::optional<GpuDirectBrdf>> models;  ///< one a material: what Direct evaluates
     std::map<std::size_t, NodeLight> nodeLights;       ///< of nodes whose relief has indirect light
     std::vector<LightShadow> lightShadows;             ///< one a light
@@ -145,6 +155,7 @@ struct SceneRenderer::State {
         : loader(programs), scene(std::move(description)), assets(scene.assets), traits(assets.traits()) {
         checkScene(scene, traits);
         for (const SceneMesh& mesh : scene.meshes) meshes.push_back(upload(mesh.mesh));
+        for (const SceneVolume& volume : scene.volumes) volumes.try_emplace(volume.volume, *volume.volume);
         prepareModels();
     }
 
@@ -184,6 +195,12 @@ struct SceneRenderer::State {
         const int mesh = scene.nodes[node].mesh;
         if (mesh < 0 || !meshes[static_cast<std::size_t>(mesh)].gpu) return nullptr;
         return &meshes[static_cast<std::size_t>(mesh)];
+    }
+
+    std::optional<VolumeSurface> volumeOf(std::size_t node, const glm::dmat4& toWorld) const {
+        if (scene.nodes[node].volume < 0) return {};
+        const SceneVolume& volume = scene.volumes[static_cast<std::size_t>(scene.nodes[node].volume)];
+        return VolumeSurface{&volumes.at(volume.volume), volume.iso, toWorld, volume.method, volume.step};
     }
 
     void updateNodeLight(std::size_t node, const SceneRelief& relief, const glm::dmat4& toWorld, const Light& light) {
@@ -248,6 +265,12 @@ struct SceneRenderer::State {
         drawn.camera = &camera;
         drawn.aspect = aspect;
         for (std::size_t i = 0; i < scene.nodes.size(); ++i) {
+            if (const std::optional<VolumeSurface> volume = volumeOf(i, nodes[i])) {
+                for (int corner = 0; corner < 8; ++corner)
+                    drawn.bounds.add(
+                        Vec3(volumeBox(*volume) * Vec4(corner & 1, (corner >> 1) & 1, (corner >> 2) & 1, 1)));
+                if (scene.nodes[i].castsShadow) drawn.volumes.push_back(*volume);
+            }
             const DrawnMesh* mesh = meshOf(i);
             if (!mesh) continue;
             for (int corner = 0; corner < 8; ++corner) {
@@ -270,12 +293,13 @@ struct SceneRenderer::State {
             const glm::dmat4 view = cascades ? camera.projection(aspect) * camera.view() : glm::dmat4(0);
             if (kept.map && sameShadow(kept.map->options(), *options) && sameLight(kept.light, lights[i]) &&
                 kept.bounds.low == drawn.bounds.low && kept.bounds.high == drawn.bounds.high && kept.camera == view &&
-                sameCasters(kept.casters, drawn.casters))
+                sameCasters(kept.casters, drawn.casters) && sameVolumes(kept.volumes, drawn.volumes))
                 continue;
             if (!kept.map || !sameShadow(kept.map->options(), *options)) kept.map.emplace(*options);
             kept.map->update(loader, lights[i], drawn);
             kept.light = lights[i];
             kept.casters = drawn.casters;
+            kept.volumes = drawn.volumes;
             kept.bounds = drawn.bounds;
             kept.camera = view;
         }
@@ -351,6 +375,28 @@ struct SceneRenderer::State {
         }
     }
 
+    /// After the meshes, whose depths hide what is behind them.
+    void drawVolumes(const RenderTarget& target, const Camera& camera, const SceneSwitches& on,
+                     const std::vector<glm::dmat4>& nodes, const std::vector<Light>& lights) {
+        const std::vector<const ShadowMap*> shadows = shadowsOf(on);
+        const ShaderDefines defines = shadowDefines(shadows, lights);
+        for (std::size_t i = 0; i < scene.nodes.size(); ++i) {
+            const std::optional<VolumeSurface> surface = volumeOf(i, nodes[i]);
+            if (!surface) continue;
+            const SceneMaterial& m = materialOf(i);
+            const bool shadowed = scene.nodes[i].receivesShadow && takesLamps(scene, m, on);
+            const SceneProgram wanted =
+                volumeProgram(scene, scene.volumes[static_cast<std::size_t>(scene.nodes[i].volume)], m, traits, on,
+                              shadowed ? defines : ShaderDefines());
+            const Program& program = loader.load(wanted.vertex, wanted.fragment, wanted.defines);
+            LitView view{camera, lights};
+            view.ambient = on.ambient ? m.ambient : Rgb(0);
+            if (shadowed) view.shadows = shadows;
+            bindMaterial(program, i, on, view);
+            drawVolume(program, target, *surface, camera);
+        }
+    }
+
     void render(const RenderTarget& target, const Camera& camera, double time, const SceneSwitches& on) {
         const std::vector<glm::dmat4> nodes = nodeTransforms(scene, time);
         const std::vector<Light> lights = lightsInWorld(scene, nodes);
@@ -363,6 +409,7 @@ struct SceneRenderer::State {
             target.clear(glm::vec4(glm::vec3(on.sky ? scene.sky.color : Rgb(0)), 1));
             drawNodes(target, camera, on, nodes, lights);
         });
+        if (!volumes.empty()) clock("volumes", [&] { drawVolumes(target, camera, volumeSwitches(on), nodes, lights); });
         if (scene.sky.asset < 0 || !on.sky) return;
         clock("sky", [&] {
             renderSky(loader, target, camera, {&asset(scene.sky.asset).environment.value(), scene.sky.lod, Rgb(1)},
@@ -401,11 +448,17 @@ struct SceneRenderer::State {
             taken[old] = true;
             moves.emplace_back(old, i);
         }
+        std::map<std::shared_ptr<const Volume>, GpuVolume> nextVolumes;
+        for (const SceneVolume& volume : next.volumes)
+            if (volumes.count(volume.volume) == 0) nextVolumes.try_emplace(volume.volume, *volume.volume);
+        for (const SceneVolume& volume : next.volumes)
+            if (auto node = volumes.extract(volume.volume)) nextVolumes.insert(std::move(node));
         for (const auto& [from, to] : moves) nextMeshes[to] = std::move(meshes[from]);
         scene = std::move(next);
         assets = std::move(nextAssets);
         traits = std::move(nextTraits);
         meshes = std::move(nextMeshes);
+        volumes = std::move(nextVolumes);
         nodeLights.clear();
         lightShadows.clear();
         prepareModels();

@@ -14,7 +14,7 @@
 
 namespace nacre {
 
-/// What a part of a frame took: `relief light`, `shadow maps`, `surfaces`, `sky`.
+/// What a part of a frame took: `relief light`, `shadow maps`, `surfaces`, `volumes`, `sky`.
 struct PassTime {
     std::string name;
     double wallSeconds = 0;  ///< between two glFinish

@@ -8,6 +8,7 @@
 #include "shading/mesh_file.hpp"
 #include "shading/primitives.hpp"
 #include "shading/scene_manifest.hpp"
+#include "shading/volume_file.hpp"
 
 namespace nacre {
 namespace {
@@ -79,17 +80,35 @@ SceneMesh sceneMesh(const std::string& name, const JsonField& field, const std::
     return out;
 }
 
+SceneVolume sceneVolume(const std::string& name, const JsonField& field, const std::filesystem::path& folder) {
+    field.requireKeys({"file", "iso", "method", "step"});
+    SceneVolume out;
+    out.name = name;
+    out.iso = field.at("iso").number();
+    ifThere(field, "method", [&](const JsonField& f) {
+        out.method = f.choice({"march", "slices"}) == 0 ? VolumeMethod::March : VolumeMethod::Slices;
+    });
+    ifThere(field, "step", [&](const JsonField& f) { out.step = f.positive(); });
+    const JsonField file = field.at("file");
+    out.volume = named(file, [&] { return std::make_shared<Volume>(readVolume(scenePath(folder, file.text()))); });
+    return out;
+}
+
 SceneNode sceneNode(const std::string& name, const JsonField& field, const SceneNames& names) {
-    field.requireKeys({"mesh", "material", "translation", "rotation", "axis", "angleDeg", "scale", "castsShadow",
-                       "receivesShadow", "static", "children", "import"});
+    field.requireKeys({"mesh", "volume", "material", "translation", "rotation", "axis", "angleDeg", "scale",
+                       "castsShadow", "receivesShadow", "static", "children", "import"});
     SceneNode out;
     out.name = name;
     ifThere(field, "mesh", [&](const JsonField& f) { out.mesh = f.nameIn(names.meshes, "mesh"); });
     ifThere(field, "material", [&](const JsonField& f) { out.material = f.nameIn(names.materials, "material"); });
+    ifThere(field, "volume", [&](const JsonField& f) { out.volume = f.nameIn(names.volumes, "volume"); });
     const auto import = field.find("import");
-    if (import && out.mesh >= 0) import->fail("expected \"mesh\" or \"import\", found both");
-    if (out.mesh >= 0 && out.material < 0) field.fail("expected \"material\" beside \"mesh\", found none");
-    if (out.mesh < 0 && out.material >= 0 && !import) field.fail("expected \"mesh\" beside \"material\", found none");
+    const char* shape = out.mesh >= 0 ? "mesh" : "volume";
+    const bool hasShape = out.mesh >= 0 || out.volume >= 0;
+    if (out.mesh >= 0 && out.volume >= 0) field.fail("expected \"mesh\" or \"volume\", found both");
+    if (import && hasShape) import->fail(fmt::format("expected \"{}\" or \"import\", found both", shape));
+    if (hasShape && out.material < 0) field.fail(fmt::format("expected \"material\" beside \"{}\", found none", shape));
+    if (!hasShape && out.material >= 0 && !import) field.fail("expected \"mesh\" beside \"material\", found none");
     ifThere(field, "translation", [&](const JsonField& f) { out.translation = f.vector(); });
     ifThere(field, "rotation", [&](const JsonField& f) {
         const Vec4 q = f.quaternion();

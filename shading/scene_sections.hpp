@@ -9,11 +9,12 @@ namespace nacre {
 
 /// What the file's own names stand for: the place of a name is its index.
 struct SceneNames {
-    JsonNames assets, meshes, materials, lights, nodes;
+    JsonNames assets, meshes, volumes, materials, lights, nodes;
 };
 
 /// All throw nacre::Error as JsonField does. Paths count from `folder`. Keys are described in scene.schema.json.
 SceneMesh sceneMesh(const std::string& name, const JsonField& field, const std::filesystem::path& folder);
+SceneVolume sceneVolume(const std::string& name, const JsonField& field, const std::filesystem::path& folder);
 SceneMaterial sceneMaterial(const std::string& name, const JsonField& field, const SceneNames& names);
 SceneLight sceneLight(const std::string& name, const JsonField& field, const SceneNames& names);
 /// A node but for what names other nodes: "children", "import".

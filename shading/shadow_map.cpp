@@ -30,10 +30,14 @@ void setFaces(SceneShadow::Faces faces, const glm::dmat4& toWorld) {
     glCullFace(faces == SceneShadow::Faces::Front ? GL_BACK : GL_FRONT);
 }
 
+void setDrawn(const Program& program, const ShadowView& view) {
+    program.set("nacre_shadow_drawn", glm::vec4(Vec4(view.near, 1 / (view.far - view.near), view.scale, view.size)));
+}
+
 void setLayer(const Program& program, const ShadowView& view, int layer) {
     const bool paraboloid = view.kind == ShadowKind::DualParaboloid;
     if (!paraboloid) program.set("nacre_shadow_to_clip", glm::mat4(shadowClip(view, layer)));
-    program.set("nacre_shadow_drawn", glm::vec4(Vec4(view.near, 1 / (view.far - view.near), view.scale, view.size)));
+    setDrawn(program, view);
 }
 
 void drawCasters(const Program& program, const ShadowView& view, int layer, const ShadowScene& scene,
@@ -43,6 +47,44 @@ void drawCasters(const Program& program, const ShadowView& view, int layer, cons
         program.set("nacre_shadow_from_mesh", glm::mat4(toLight * caster.toWorld));
         setFaces(faces, caster.toWorld);
         caster.mesh->draw();
+    }
+}
+
+/// In the units of bind/volume.glsl; 0 holds the depths that store() reads.
+constexpr int kVolumeUnit = 1;
+
+ShaderDefines rayDefines(ShadowKind kind) {
+    if (kind == ShadowKind::DualParaboloid) return {{"NACRE_SHADOW_PARABOLOID", "1"}};
+    if (kind == ShadowKind::Directional) return {{"NACRE_SHADOW_PARALLEL", "1"}};
+    return {};
+}
+
+void marchVolume(ProgramLoader& loader, const ShadowView& view, int layer, const VolumeSurface& surface,
+                 const glm::dmat4& toLight) {
+    const Program& program = loader.load("fullscreen.vert.glsl", "shadow_volume.frag.glsl", rayDefines(view.kind));
+    setDrawn(program, view);
+    if (view.kind == ShadowKind::Directional)
+        program.set("nacre_shadow_square", glm::vec3(view.cascades[static_cast<std::size_t>(layer)]));
+    bindVolume(program, surface, kVolumeUnit, toLight);
+    drawFullscreen(VertexArray());
+}
+
+void sliceVolume(ProgramLoader& loader, const ShadowView& view, int layer, const VolumeSurface& surface,
+                 const glm::dmat4& toLight) {
+    const Program& program =
+        loader.load("shadow_map.vert.glsl", "shadow_map.frag.glsl", {{"NACRE_SHADOW_SLICES", "1"}});
+    setLayer(program, view, layer);
+    program.set("nacre_shadow_from_mesh", glm::mat4(1));
+    bindVolume(program, surface, kVolumeUnit, toLight);
+    drawSlices(volumeSlices(toLight * volumeBox(surface), Vec3(0, 0, 1), volumeStep(surface)));
+}
+
+void drawVolumes(ProgramLoader& loader, const ShadowView& view, int layer, const std::vector<VolumeSurface>& volumes) {
+    glDisable(GL_CULL_FACE);
+    const glm::dmat4 toLight = glm::dmat4(shadowLayerFrame(view, layer)) * view.fromWorld;
+    for (const VolumeSurface& surface : volumes) {
+        const bool march = surface.method == VolumeMethod::March || view.kind == ShadowKind::DualParaboloid;
+        (march ? marchVolume : sliceVolume)(loader, view, layer, surface, toLight);
     }
 }
 
@@ -115,6 +157,7 @@ void ShadowMap::store(const Program& program, int layer) const {
 
 void ShadowMap::update(ProgramLoader& loader, const Light& light, const ShadowScene& scene) {
     for (const ShadowCaster& caster : scene.casters) require(caster.mesh != nullptr, "shadow map: a caster is null");
+    for (const VolumeSurface& volume : scene.volumes) checkVolume(volume);
     const ShadowView view = fitShadow(options_, light, scene.bounds, scene.camera, scene.aspect);
     ShaderDefines defines;
     if (view.kind == ShadowKind::DualParaboloid) defines.emplace_back("NACRE_SHADOW_PARABOLOID", "1");
@@ -132,6 +175,7 @@ void ShadowMap::update(ProgramLoader& loader, const Light& light, const ShadowSc
         glClear(GL_DEPTH_BUFFER_BIT);
         setLayer(draw, view, layer);
         drawCasters(draw, view, layer, scene, options_.faces);
+        drawVolumes(loader, view, layer, scene.volumes);
         store(blocks, layer);
     }
     glFrontFace(GL_CCW);

@@ -10,6 +10,7 @@
 #include "shading/gpu_mesh.hpp"
 #include "shading/program.hpp"
 #include "shading/render_target.hpp"
+#include "shading/volume_surface.hpp"
 
 namespace nacre {
 
@@ -24,6 +25,7 @@ struct ShadowScene {
     Bounds bounds;
     const Camera* camera = nullptr;
     double aspect = 1;
+    std::vector<VolumeSurface> volumes{};  ///< cast the hull of their inside, whatever `faces` says
 };
 
 /// The maps of one light: an array texture with the layers of ShadowView, as columns of four rows that overlap by two
@@ -41,7 +43,10 @@ public:
     /// DualParaboloid: edges of triangles are straight in the map, where true ones are arcs of circles no smaller than
     /// the horizon: a chord of c horizon radii is off by up to c²/8 of them, a texel of 1024 for edges of 7° to 14°.
     /// Split longer ones. Depths are those of the triangles' planes at each texel's ray, long or short.
-    /// \throws std::invalid_argument as fitShadow says, for null casters; nacre::Error from the driver
+    /// A volume is drawn as its method says: slices perpendicular to the layer's axis, which see the surface up to a
+    /// step (times the ray's length over the axis) late, or a march along each texel's ray. DualParaboloid always
+    /// marches: slices have the longest edges of all. \throws std::invalid_argument as fitShadow and checkVolume say,
+    /// for null casters; nacre::Error from the driver
     void update(ProgramLoader& loader, const Light& light, const ShadowScene& scene);
 
     bool drawn() const { return texture_.has_value(); }

@@ -131,6 +131,7 @@ Gallery makeGallery(const Arguments& arguments, const Choice& choice) {
     exhibitOptions.heightFolder = std::filesystem::path(arguments.data) / "heights";
     exhibitOptions.meshFolder = std::filesystem::path(arguments.data) / "meshes";
     exhibitOptions.volumeFolder = std::filesystem::path(arguments.data) / "volumes";
+    exhibitOptions.animatedFolder = std::filesystem::path(arguments.data) / "animated";
     exhibitOptions.sceneFolder = NACRE_SCENES;
     exhibitOptions.quick = arguments.quick;
     exhibitOptions.timingRepeats = options.timingRepeats;

@@ -8,6 +8,7 @@
 #include "core/file.hpp"
 #include "core/image_file.hpp"
 #include "tests/cli/process.hpp"
+#include "tests/shading/volume_fixture.hpp"
 
 namespace nacre {
 namespace {
@@ -31,6 +32,48 @@ std::string sceneFile(const Scratch& scratch) {
         "camera": {"eye": [0, 0, 4], "target": [0, 0, 0], "fovYDeg": 40, "near": 0.5, "far": 20}
     })");
     return (scratch / "scene.json").string();
+}
+
+/// A dome of 8 x 8 x 8 samples in a .den file over a floor.
+std::string volumeScene(const Scratch& scratch, const char* file = "dome.den") {
+    test::Bytes dome = test::den(8, 8, 8);
+    const std::size_t data = dome.size() - 512;
+    for (std::size_t i = 0; i < 512; ++i) {
+        const Vec3 p(static_cast<double>(i % 8) - 3.5, static_cast<double>(i / 8 % 8),
+                     static_cast<double>(i / 64) - 3.5);
+        dome[data + i] = static_cast<std::uint8_t>(250 - 40 * std::min(6.0, glm::length(p)));
+    }
+    writeFile(scratch / "dome.den", test::text(dome));
+    writeFile(scratch / "volume.json", std::string(R"({
+        "nacre_scene": 1,
+        "meshes": {"square": {"quad": {"size": 8}}},
+        "volumes": {"dome": {"file": ")") + file +
+                                           R"(", "iso": 130}},
+        "materials": {"matt": {"model": "lambert:kd=0.7", "ambient": 0.02}},
+        "nodes": {"floor": {"mesh": "square", "material": "matt", "translation": [0, -1, 0], "axis": [1, 0, 0], "angleDeg": -90},
+                  "dome": {"volume": "dome", "material": "matt"}},
+        "lights": {"lamp": {"type": "spot", "position": [3, 3, 2], "target": [0, -1, 0], "intensity": 60, "shadow": true}},
+        "camera": {"eye": [0, 2, 6], "target": [0, -0.5, 0], "fovYDeg": 40}
+    })");
+    return (scratch / "volume.json").string();
+}
+
+TEST(CommandRender, VolumesAreDrawnTracedAndListed) {
+    const Scratch scratch;
+    const std::string scene = volumeScene(scratch);
+    const Outcome run = nacre({"render", scene, "-o", scratch / "v.png", "--size", "96x64", "--shares", "--json"});
+    ASSERT_EQ(run.code, 0) << run.err;
+    const json data = json::parse(run.out);
+    EXPECT_GT(data["errors"]["all"]["psnr"], 35)
+        << "models in the shader: what is left are outlines and shadows' edges";
+    EXPECT_LT(data["errors"]["shares"][0]["psnr_off"], 28) << "the volume's shadow is in the reference";
+    const Outcome info = nacre({"info", scene});
+    ASSERT_EQ(info.code, 0) << info.err;
+    EXPECT_THAT(info.out, AllOf(HasSubstr("8 x 8 x 8 samples, surface at 130, march"), HasSubstr("volume.frag.glsl")));
+    const Outcome wrong = nacre({"render", volumeScene(scratch, "gone.den"), "-o", scratch / "w.png"});
+    EXPECT_EQ(wrong.code, 1);
+    EXPECT_THAT(wrong.err, AllOf(HasSubstr("volume.json: /volumes/dome/file: "), HasSubstr("gone.den")));
+    EXPECT_FALSE(std::filesystem::exists(scratch / "w.png"));
 }
 
 TEST(CommandRender, DrawsAndComparesWithTheReference) {

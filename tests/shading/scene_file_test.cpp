@@ -4,6 +4,7 @@
 #include <numbers>
 
 #include "tests/shading/scene_files.hpp"
+#include "tests/shading/volume_fixture.hpp"
 
 namespace nacre {
 namespace {
@@ -215,6 +216,46 @@ TEST_F(SceneFile, ReliefNeedsUv) {
         read(sceneText(rest + R"(, "meshes": {"t": {"quad": {}}}, "nodes": {"n": {"mesh": "t", "material": "m"}})"))
             .nodes.size(),
         1u);
+}
+
+TEST_F(SceneFile, VolumesArriveAndWrongOnesAreNamed) {
+    write("cube.den", test::text(test::den(2, 3, 4)));
+    const std::string cube = R"("volumes": {"cube": {"file": "cube.den", "iso": 4.5, "method": "slices", "step": 0.25}},
+                                "materials": {"matt": {"model": "lambert"}}, )";
+    const SceneDescription scene =
+        read(sceneText(cube + R"("nodes": {"v": {"volume": "cube", "material": "matt", "translation": [1, 0, 0]}})"));
+    ASSERT_EQ(scene.volumes.size(), 1u);
+    EXPECT_EQ(scene.volumes[0].name, "cube");
+    EXPECT_EQ(scene.volumes[0].volume->size, glm::ivec3(2, 3, 4));
+    EXPECT_EQ(scene.volumes[0].iso, 4.5);
+    EXPECT_EQ(scene.volumes[0].method, VolumeMethod::Slices);
+    EXPECT_EQ(scene.volumes[0].step, 0.25);
+    EXPECT_EQ(scene.nodes[0].volume, 0);
+    EXPECT_EQ(scene.nodes[0].mesh, -1);
+    EXPECT_NEAR(scene.camera.target.x, 1, 1e-12) << "the camera sees the volume";
+    refuses(R"("volumes": {"v": {"file": "gone.den", "iso": 1}})", "/volumes/v/file", "gone.den");
+    write("other.den", "nothing");
+    refuses(R"("volumes": {"v": {"file": "other.den", "iso": 1}})", "/volumes/v/file",
+            "expected a volume (.den or .inr)");
+    refuses(R"("volumes": {"v": {"file": "cube.den"}})", "/volumes/v", "iso");
+    refuses(R"("volumes": {"v": {"file": "cube.den", "iso": 1, "step": -1}})", "/volumes/v/step", "");
+    refuses(cube + R"("nodes": {"v": {"volume": "cub", "material": "matt"}})", "/nodes/v/volume", "cube");
+    refuses(cube + R"("nodes": {"v": {"volume": "cube"}})", "/nodes/v", "\"material\" beside \"volume\"");
+    refuses(
+        cube + R"("nodes": {"v": {"volume": "cube", "material": "matt", "mesh": "q"}}, "meshes": {"q": {"quad": {}}})",
+        "/nodes/v", "found both");
+    write("wall.exr", "");
+    refuses(R"("volumes": {"cube": {"file": "cube.den", "iso": 4}}, "assets": {"wall": {"file": "wall.exr"}},
+               "materials": {"rock": {"model": "lambert", "relief": {"asset": "wall"}}},
+               "nodes": {"v": {"volume": "cube", "material": "rock"}})",
+            "/nodes/v", "without relief for a volume, found \"rock\"");
+    // Imported twice: one volume, two nodes.
+    write("part.json", sceneText(cube + R"("nodes": {"v": {"volume": "cube", "material": "matt"}})"));
+    const SceneDescription twice =
+        read(sceneText(R"("nodes": {"a": {"import": "part.json"}, "b": {"import": "part.json"}})"));
+    ASSERT_EQ(twice.volumes.size(), 1u);
+    EXPECT_EQ(std::count_if(twice.nodes.begin(), twice.nodes.end(), [](const SceneNode& n) { return n.volume == 0; }),
+              2);
 }
 
 TEST_F(SceneFile, AMeshAloneIsAScene) {

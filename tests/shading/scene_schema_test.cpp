@@ -4,6 +4,7 @@
 #include <set>
 
 #include "tests/shading/scene_files.hpp"
+#include "tests/shading/volume_fixture.hpp"
 
 namespace nacre {
 namespace {
@@ -24,6 +25,7 @@ constexpr const char* kEverything = R"({
     "disk": {"disk": {"radius": 1, "segments": 8, "rings": 2, "tangents": "circular"}},
     "quad": {"quad": {"size": 2, "steps": 1}}
   },
+  "volumes": {"cube": {"file": "cube.den", "iso": 4, "method": "slices", "step": 0.25}},
   "materials": {
     "a": {"brdf": "gold", "ambient": [0, 0, 0.1],
       "relief": {"asset": "wall", "shadow": "horizon", "tiles": 2, "roughness": true, "indirectLight": "sun",
@@ -44,6 +46,7 @@ constexpr const char* kEverything = R"({
   "nodes": {
     "n": {"mesh": "quad", "material": "a", "translation": [0, 1, 2], "rotation": [0, 0, 0, 1], "scale": 2,
           "castsShadow": false, "receivesShadow": false, "static": false, "children": ["m"]},
+    "v": {"volume": "cube", "material": "b"},
     "m": {"import": "t.obj", "axis": [0, 1, 0], "angleDeg": 30, "scale": [1, 2, 3]}
   },
   "camera": {"eye": [0, 0, 5], "target": [0, 0, 0], "up": [0, 1, 0], "fovYDeg": 30, "near": 1, "far": 9},
@@ -135,6 +138,7 @@ class SceneSchema : public tests::SceneFiles {
 protected:
     void SetUp() override {
         for (const char* name : {"gold.exr", "wall.exr", "wall.png"}) write(name, "");
+        write("cube.den", test::text(test::den(2, 2, 2)));
         write("t.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 0 1\nf 1/1 2/2 3/3\n");
     }
 
@@ -189,7 +193,7 @@ TEST_F(SceneSchema, SchemaAndReaderKnowTheSameKeys) {
         EXPECT_TRUE(schema_.accepts(schema_.root(), scene));
         visit(scene, schema_.root(), json::json_pointer());
     }
-    EXPECT_EQ(objects_.size(), 19u) << "kinds of objects";
+    EXPECT_EQ(objects_.size(), 20u) << "kinds of objects";
     for (const auto& [schema, keys] : objects_) {
         EXPECT_EQ(keys.inSchema, keys.inReader) << schema->dump();
         EXPECT_EQ(keys.inSchema, keys.used) << "kEverything and kOtherwise must use every key of " << schema->dump();
@@ -205,6 +209,9 @@ TEST_F(SceneSchema, BothRefuse) {
                                                                {"/meshes/torus/torus/tube", 0},
                                                                {"/meshes/quad/quad/steps", 0},
                                                                {"/meshes/disk/disk/rings", 1.5},
+                                                               {"/volumes/cube/iso", "high"},
+                                                               {"/volumes/cube/method", "splats"},
+                                                               {"/volumes/cube/step", 0},
                                                                {"/materials/a/ambient", {1, 2}},
                                                                {"/materials/a/ambient", -1},
                                                                {"/materials/a/relief/shadow", "soft"},

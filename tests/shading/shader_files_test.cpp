@@ -186,6 +186,7 @@ std::vector<ProgramCase> programs() {
     out.push_back({"lit_vertex.vert.glsl", "lit_vertex.frag.glsl", {spots, brdfs.front(), brdfs.back()}});
     out.push_back({"lit.vert.glsl", "lit.frag.glsl", combined({brdfs.front()}, shadowChoices())});
     out.push_back({"lit.vert.glsl", "shadow_mask.frag.glsl", shadowChoices()});
+    out.push_back({"vertex_light.vert.glsl", "vertex_light.frag.glsl", {{}}});
     out.push_back({"fullscreen.vert.glsl", "shadow_blocks.frag.glsl", {{}}});
     out.push_back({"fullscreen.vert.glsl", "alpha_copy.frag.glsl", {{}}});
     std::vector<ShaderDefines> alpha;
@@ -193,7 +194,12 @@ std::vector<ProgramCase> programs() {
         alpha.push_back({{"NACRE_ALPHA_STEP", step}});
     alpha.push_back({{"NACRE_ALPHA_STEP", "NACRE_ALPHA_RAMP"}, {"NACRE_ALPHA_FROM_LIGHT", "1"}});
     out.push_back({"alpha_shadow.vert.glsl", "alpha_shadow.frag.glsl", alpha});
-    out.push_back({"shadow_map.vert.glsl", "shadow_map.frag.glsl", {{}, {{"NACRE_SHADOW_PARABOLOID", "1"}}}});
+    out.push_back({"shadow_map.vert.glsl",
+                   "shadow_map.frag.glsl",
+                   {{}, {{"NACRE_SHADOW_PARABOLOID", "1"}}, {{"NACRE_SHADOW_SLICES", "1"}}}});
+    out.push_back({"fullscreen.vert.glsl",
+                   "shadow_volume.frag.glsl",
+                   {{}, {{"NACRE_SHADOW_PARABOLOID", "1"}}, {{"NACRE_SHADOW_PARALLEL", "1"}}}});
     std::vector<ShaderDefines> matrix;
     for (ShaderDefines defines : factoredChoices())
         if (defines[0].second == "NACRE_FORM_COSINE" || defines[0].second == "NACRE_FORM_TANGENT") {
@@ -217,11 +223,13 @@ std::vector<ProgramCase> programs() {
     out.push_back({"fullscreen.vert.glsl", "relief_light.frag.glsl", reliefChoices()});
     out.push_back({"lit.vert.glsl", "lit_environment.frag.glsl", combined({both.back()}, bumpChoices())});
     out.push_back({"lit.vert.glsl", "environment.frag.glsl", combined({surroundings.back()}, bumpChoices())});
-    for (const ShaderDefines& way : {ShaderDefines{}, ShaderDefines{{"NACRE_VOLUME_MARCH", "1"}}})
-        out.push_back({"volume.vert.glsl", "volume.frag.glsl", combined({brdfs.front()}, {way})});
     // Of scenes: ambient alone, lamps, the surrounding, both; each relief with everything.
     const ShaderDefines lamps{{"NACRE_SCENE_LAMPS", "1"}}, surrounding{{"NACRE_SCENE_SURROUNDING", "1"}};
     const ShaderDefines everything = combined(combined({both.back()}, {lamps}), {surrounding}).front();
+    std::vector<ShaderDefines> volumes{{}, everything, combined({surroundings.back()}, {surrounding}).front()};
+    for (const ShaderDefines& shadow : shadowChoices())
+        volumes.push_back(combined(combined({brdfs.front()}, {lamps}), {shadow}).front());
+    out.push_back({"volume.vert.glsl", "volume.frag.glsl", combined(volumes, {{}, {{"NACRE_VOLUME_MARCH", "1"}}})});
     std::vector<ShaderDefines> scenes = combined({everything}, bumpChoices());
     scenes.push_back({});
     scenes.push_back(combined({brdfs.front()}, {lamps}).front());

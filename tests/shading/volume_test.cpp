@@ -11,27 +11,16 @@
 #include "reference/volume_trace.hpp"
 #include "shading/volume_file.hpp"
 #include "shading/volume_pass.hpp"
+#include "volume_fixture.hpp"
 
 namespace nacre {
 namespace {
 
-constexpr int kSize = 96;
+using test::Bytes;
+using test::den;
+using test::egg;
 
-/// An egg with a dent, off the middle: no symmetry hides a swapped axis. Positive inside.
-Volume egg(const glm::ivec3& size) {
-    Volume out;
-    out.size = size;
-    out.spacing = {1, 1.2, 0.8};
-    for (int z = 0; z < size.z; ++z)
-        for (int y = 0; y < size.y; ++y)
-            for (int x = 0; x < size.x; ++x) {
-                const Vec3 p = (Vec3(x, y, z) + 0.5) / Vec3(size);
-                const double ball = 0.36 - glm::length((p - Vec3(0.45, 0.52, 0.5)) * Vec3(1, 0.9, 1.1));
-                const double dent = glm::length(p - Vec3(0.75, 0.75, 0.8)) - 0.25;
-                out.values.push_back(static_cast<float>(40 * std::min(ball, dent)));
-            }
-    return out;
-}
+constexpr int kSize = 96;
 
 Camera lookingAt(bool orthographic) {
     Camera camera;
@@ -200,26 +189,6 @@ TEST(VolumeSlices, CoverTheBoxOnceAStep) {
     EXPECT_NEAR(area, 4, 1e-6);
     EXPECT_FLOAT_EQ(triangles.front().z, 0.125f);
     EXPECT_FLOAT_EQ(triangles.back().z, 0.875f);
-}
-
-using Bytes = std::vector<std::uint8_t>;
-
-void put(Bytes& out, std::uint32_t value, int width) {
-    for (int i = 0; i < width; ++i) out.push_back(static_cast<std::uint8_t>(value >> (8 * i)));
-}
-
-Bytes den(int x, int y, int z) {
-    Bytes out;
-    put(out, 1, 2);
-    for (int map = 0; map < 3; ++map) {
-        for (int c = 0; c < 3; ++c) put(out, 0, 2);
-        for (const int n : {x, y, z}) put(out, static_cast<std::uint32_t>(n - 1), 2);
-        for (const int n : {x, y, z}) put(out, static_cast<std::uint32_t>(n), 2);
-    }
-    put(out, 3, 2);
-    put(out, static_cast<std::uint32_t>(x * y * z), 4);
-    for (int i = 0; i < x * y * z; ++i) out.push_back(static_cast<std::uint8_t>(i));
-    return out;
 }
 
 Bytes inr(std::string header, const void* data, std::size_t size) {

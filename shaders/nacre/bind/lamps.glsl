@@ -9,17 +9,14 @@
 #include "nacre/frame.glsl"
 #include "nacre/light.glsl"
 
-// Sum over lights of f(wi, wo) cos(alpha) E, all vectors normalised in the pixel. to_eye: unit, world. Loops take no
-// `continue`: the shadow's derivatives must not stand in a branch.
-vec3 nacre_lamps(NacreBump point, vec3 to_eye, vec3 position) {
+// Sum over lights of f(wi, wo) cos(alpha) E, all vectors normalised in the pixel. to_eye: unit, world. shadow_position,
+// shadow_normal: what nacre_shadow_lit is asked for.
+vec3 nacre_lamps_by(NacreBump point, vec3 to_eye, vec3 position, vec3 shadow_position, vec3 shadow_normal) {
 #ifdef NACRE_BUMP_ROUGHNESS
     nacre_brdf_added_alpha = point.alpha;
 #endif
     vec3 wo = nacre_to_local(point.frame, to_eye);
     vec3 sum = vec3(0.0);
-#ifdef NACRE_SHADOWS
-    vec3 shadow_normal = nacre_shadow_normal(position, to_eye);
-#endif
     for (int i = 0; i < NACRE_LIGHT_COUNT; ++i) {
         vec4 light = nacre_light_position[i];
         vec3 to_light = nacre_direction_to(light, position);
@@ -33,13 +30,22 @@ vec3 nacre_lamps(NacreBump point, vec3 to_eye, vec3 position) {
         if (direct || indirect) {
             vec3 arrives = nacre_light_color[i] * nacre_light_share(i, to_light, position);
 #ifdef NACRE_SHADOWS
-            arrives *= nacre_shadow_lit(i, position, shadow_normal);
+            arrives *= nacre_shadow_lit(i, shadow_position, shadow_normal);
 #endif
             if (direct) sum += nacre_brdf(wi, wo) * (lit * wi.z) * arrives;
             if (indirect) sum += point.indirect * arrives;
         }
     }
     return sum;
+}
+
+// The same of a mesh. Takes derivatives: outside of branches.
+vec3 nacre_lamps(NacreBump point, vec3 to_eye, vec3 position) {
+#ifdef NACRE_SHADOWS
+    return nacre_lamps_by(point, to_eye, position, position, nacre_shadow_normal(position, to_eye));
+#else
+    return nacre_lamps_by(point, to_eye, position, position, to_eye);
+#endif
 }
 
 #endif
