@@ -93,9 +93,12 @@ AnimatedMesh read(Settings& s) {
 }
 
 json errorJson(const TransferMeasure& m, std::size_t rays) {
-    return {{"l2_rel", m.error.mean},       {"median", m.error.median}, {"p95", m.error.p95},
-            {"total", m.error.total},       {"buried", m.error.buried}, {"rays", rays},
-            {"vertices", m.error.vertices}, {"frames", m.frames}};
+    const TransferError& e = m.error;
+    const auto ofVertices = [&](double value) { return e.vertices > 0 ? json(value) : json(); };
+    return {{"l2_rel", ofVertices(e.mean)}, {"median", ofVertices(e.median)},
+            {"p95", ofVertices(e.p95)},     {"total", ofVertices(e.total)},
+            {"buried", e.buried},           {"rays", rays},
+            {"vertices", e.vertices},       {"frames", m.frames}};
 }
 
 /// What the file says of itself besides what its numbers need: nothing that differs from run to run.
@@ -137,6 +140,18 @@ json speedJson(const TransferRun& run, const Settings& s) {
               {"other", t.other}}}};
 }
 
+std::string errorText(const json& e) {
+    const auto buried = e["buried"].get<std::size_t>(), all = buried + e["vertices"].get<std::size_t>();
+    if (e["l2_rel"].is_null()) return fmt::format("  error       no vertex to measure; {} of {} buried\n", buried, all);
+    const auto number = [&](const char* key) { return e[key].get<double>(); };
+    return fmt::format(
+        "  error       l2_rel {:.4f} (median {:.4f}, p95 {:.4f}, total {:.4f}) against {} rays a vertex in {} frames; "
+        "{} of "
+        "{} vertices buried\n",
+        number("l2_rel"), number("median"), number("p95"), number("total"), e["rays"].get<std::size_t>(),
+        e["frames"].size(), buried, all);
+}
+
 std::string text(const Settings& s, const TransferRun& run, const json& data) {
     const TransferRecording& r = run.recording;
     std::string out =
@@ -154,15 +169,7 @@ std::string text(const Settings& s, const TransferRun& run, const json& data) {
         "s\n",
         100 * t.rasterization / all, 100 * t.integration / all, 100 * t.transform / all, 100 * t.other / all, all);
     if (run.withoutNormal > 0) out += fmt::format("  no normal   {} vertices: zeros\n", run.withoutNormal);
-    if (data.contains("error")) {
-        const json& e = data["error"];
-        out += fmt::format(
-            "  error       l2_rel {:.4f} (median {:.4f}, p95 {:.4f}, total {:.4f}) against {} rays a vertex "
-            "in {} frames; {} of {} vertices buried\n",
-            e["l2_rel"].get<double>(), e["median"].get<double>(), e["p95"].get<double>(), e["total"].get<double>(),
-            e["rays"].get<std::size_t>(), e["frames"].size(), e["buried"].get<std::size_t>(),
-            e["buried"].get<std::size_t>() + e["vertices"].get<std::size_t>());
-    }
+    if (data.contains("error")) out += errorText(data["error"]);
     if (data.contains("white"))
         out += fmt::format("  colours     {}, white {:.4g}\n", s.ply, data["white"].get<double>());
     return out;
