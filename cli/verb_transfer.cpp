@@ -64,7 +64,14 @@ void takeWeights(Settings& s) {
 }
 
 BlockingSides sidesOf(const std::string& name) {
-    return name == "front" ? BlockingSides::Front : name == "both" ? BlockingSides::Both : BlockingSides::Auto;
+    return name == "front"  ? BlockingSides::Front
+           : name == "fine" ? BlockingSides::Fine
+           : name == "both" ? BlockingSides::Both
+                            : BlockingSides::Auto;
+}
+
+const char* nameOf(BlockingSides sides) {
+    return sides == BlockingSides::Front ? "front" : sides == BlockingSides::Fine ? "fine" : "both";
 }
 
 /// 3, 5-8, 12
@@ -112,7 +119,7 @@ json description(const Context& context, const Settings& s, const TransferRun& r
                   {"rings", o.rings},
                   {"coarse", o.coarse},
                   {"lod_angle", o.lodAngle},
-                  {"sides", run.sides == BlockingSides::Front ? "front" : "both"}}},
+                  {"sides", nameOf(run.sides)}}},
                 {"closed", run.closed},
                 {"coarse_triangles", run.coarseTriangles},
                 {"blockers", {{"listed", run.listed}, {"drawn", run.drawn}}},
@@ -159,9 +166,8 @@ std::string text(const Settings& s, const TransferRun& run, const json& data) {
                     run.reused, r.vertexCount(), r.triangles.size(), r.order, humanBytes(data["bytes"]));
     out += fmt::format("  speed       {:.4g} vertices/s, {:.4g} frames/s\n", data["vertices_per_second"].get<double>(),
                        data["frames_per_second"].get<double>());
-    out +=
-        fmt::format("  blockers    {:.1f} listed a vertex, {:.1f} drawn; coarsest level {} triangles, {} sides\n",
-                    run.listed, run.drawn, run.coarseTriangles, run.sides == BlockingSides::Front ? "front" : "both");
+    out += fmt::format("  blockers    {:.1f} listed a vertex, {:.1f} drawn; coarsest level {} triangles, {} sides\n",
+                       run.listed, run.drawn, run.coarseTriangles, nameOf(run.sides));
     const TransferSeconds& t = run.seconds;
     const double all = std::max(t.rasterization + t.integration + t.transform + t.other, 1e-30);
     out += fmt::format(
@@ -274,10 +280,10 @@ std::vector<Option> options(const std::shared_ptr<Settings>& s) {
          positiveInto([s](double v) { s->options.lodAngle = v; })},
         {"--sides",
          "NAME",
-         "Sides that block: front on closed meshes (auto, default), front, both",
+         "Sides that block: front, both, fine (both of the mesh, front of its levels), by the mesh (auto, default)",
          into(s->sides),
          false,
-         {"auto", "front", "both"}},
+         {"auto", "front", "fine", "both"}},
         {"--vectors",
          "NAME",
          "The processor's; the same bits for any (default widest)",

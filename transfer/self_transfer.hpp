@@ -9,8 +9,11 @@
 
 namespace nacre {
 
-/// Which sides of a triangle block. On closed meshes the sides that face the vertex are all that can be seen first.
-enum class BlockingSides { Auto, Front, Both };
+/// Which sides of a triangle block. On closed meshes the sides that face the vertex are all that can be seen first. Fine:
+/// both of the mesh's own triangles, the front of coarser levels', whose backs would hide vertices that they lie over;
+/// for meshes of shells with openings. Auto: Front when closed, Fine when the connected parts
+/// nearly enclose something, else (cloth) Both.
+enum class BlockingSides { Auto, Front, Fine, Both };
 
 struct SelfTransferOptions {
     int mask = 32;                 ///< N of N × N bits: 16, 32, 64, 128
