@@ -81,6 +81,7 @@ SelfTransferOptions qualityTransfer() {
 std::string text(const SelfTransferOptions& o) {
     const std::string sides = o.sides == BlockingSides::Auto    ? ""
                               : o.sides == BlockingSides::Front ? ", front sides"
+                              : o.sides == BlockingSides::Fine  ? ", both sides of the mesh itself"
                                                                 : ", both sides";
     if (o.coarse == 0) return fmt::format("mask {}, no levels{}", o.mask, sides);
     return fmt::format("mask {}, coarse {}, angle {:g}, rings {}{}", o.mask, o.coarse, o.lodAngle, o.rings, sides);

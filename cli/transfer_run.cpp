@@ -35,8 +35,10 @@ namespace {
 /// One of both methods.
 class Method {
 public:
-    Method(const WeldedMesh& mesh, std::span<const glm::vec3> rest, const TransferPlan& plan) {
+    Method(const WeldedMesh& mesh, std::span<const glm::vec3> rest, const TransferPlan& plan)
+        : sides_(plan.options.sides) {
         const SelfTransferOptions& o = plan.options;
+        if (o.sides == BlockingSides::Auto) sides_ = mesh.closed ? BlockingSides::Front : BlockingSides::Both;
         if (plan.lut)
             paper_.emplace(mesh, rest, PaperMethodOptions{*plan.lut, o.rings, o.coarse, o.sides, true, o.threads});
         else
@@ -47,7 +49,10 @@ public:
     }
     std::size_t coarseTriangles() const { return paper_ ? paper_->coarseTriangles() : self_->coarseTriangles(); }
 
+    BlockingSides sides() const { return paper_ ? sides_ : self_->options().sides; }  ///< resolved
+
 private:
+    BlockingSides sides_;  ///< of the paper's method, resolved as it does
     std::optional<SelfTransfer> self_;
     std::optional<PaperMethod> paper_;
 };
@@ -75,8 +80,7 @@ TransferRun runTransfer(const AnimatedMesh& animation, const TransferPlan& plan,
     const Method transfer(mesh, restPositions, plan);
     run.coarseTriangles = transfer.coarseTriangles();
     run.closed = mesh.closed;
-    run.sides = plan.options.sides;
-    if (run.sides == BlockingSides::Auto) run.sides = mesh.closed ? BlockingSides::Front : BlockingSides::Both;
+    run.sides = transfer.sides();
     transfer.compute(restPositions);
     for (int f = first; f < end; ++f) {
         report(progress, "frames", static_cast<double>(f - first) / (end - first));

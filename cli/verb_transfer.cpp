@@ -66,7 +66,14 @@ void takeWeights(Settings& s) {
 }
 
 BlockingSides sidesOf(const std::string& name) {
-    return name == "front" ? BlockingSides::Front : name == "both" ? BlockingSides::Both : BlockingSides::Auto;
+    return name == "front"  ? BlockingSides::Front
+           : name == "fine" ? BlockingSides::Fine
+           : name == "both" ? BlockingSides::Both
+                            : BlockingSides::Auto;
+}
+
+const char* nameOf(BlockingSides sides) {
+    return sides == BlockingSides::Front ? "front" : sides == BlockingSides::Fine ? "fine" : "both";
 }
 
 /// 3, 5-8, 12
@@ -114,7 +121,7 @@ json description(const Context& context, const Settings& s, const TransferRun& r
                   {"rings", o.rings},
                   {"coarse", o.coarse},
                   {"lod_angle", o.lodAngle},
-                  {"sides", run.sides == BlockingSides::Front ? "front" : "both"}}},
+                  {"sides", nameOf(run.sides)}}},
                 {"closed", run.closed},
                 {"coarse_triangles", run.coarseTriangles},
                 {"blockers", {{"listed", run.listed}, {"drawn", run.drawn}}},
@@ -162,9 +169,8 @@ std::string text(const Settings& s, const TransferRun& run, const json& data) {
                     run.reused, r.vertexCount(), r.triangles.size(), r.order, humanBytes(data["bytes"]));
     out += fmt::format("  speed       {:.4g} vertices/s, {:.4g} frames/s\n", data["vertices_per_second"].get<double>(),
                        data["frames_per_second"].get<double>());
-    out +=
-        fmt::format("  blockers    {:.1f} listed a vertex, {:.1f} drawn; coarsest level {} triangles, {} sides\n",
-                    run.listed, run.drawn, run.coarseTriangles, run.sides == BlockingSides::Front ? "front" : "both");
+    out += fmt::format("  blockers    {:.1f} listed a vertex, {:.1f} drawn; coarsest level {} triangles, {} sides\n",
+                       run.listed, run.drawn, run.coarseTriangles, nameOf(run.sides));
     const TransferSeconds& t = run.seconds;
     const double all = std::max(t.rasterization + t.integration + t.transform + t.other, 1e-30);
     out += fmt::format(
@@ -187,6 +193,8 @@ void runTransferVerb(const Context& context, Settings s) {
             "{}: expected no --lut, whose method has 32 x 32 bits, order 4 and one coarse mesh", s.notWithLut));
     s.plan.options.rings = s.rings.value_or(s.plan.lut ? PaperMethodOptions{}.rings : SelfTransferOptions{}.rings);
     s.plan.options.sides = sidesOf(s.sides);
+    if (s.plan.lut && s.plan.options.sides == BlockingSides::Fine)
+        throw UsageError("--sides: expected auto, front or both with --lut, found 'fine'");
     s.plan.options.vectors = vectorSetFromString(s.vectors);
     maskKernel(s.plan.options.mask, s.plan.options.vectors);  // a processor without these vectors: said before the work
     requireWritable(s.model, s.output, provisionalName(s.output), "");
@@ -284,7 +292,9 @@ std::vector<Option> options(const std::shared_ptr<Settings>& s) {
          integerInto([s](long long v) { s->rings = static_cast<int>(v); }, 1, 2)},
         {"--coarse", "N", "Triangles of the coarsest level of detail (default 400); 0: the mesh itself everywhere",
          integerInto([s](long long v) { s->plan.options.coarse = static_cast<std::size_t>(v); }, 0, 1 << 30)},
-        {"--lod-angle", "RAD", "A level is used where it is off by less, seen from the vertex (default 0.02)",
+        {"--lod-angle", "RAD",
+         "A level is used where it is off by less, seen from the vertex: 0.2 (default) is 1 to 1.5 % off, 0.5 about 3 "
+         "%",
          own("--lod-angle", positiveInto([s](double v) { s->plan.options.lodAngle = v; }))},
         {"--lut", "L",
          "HEMI's method as printed, to compare with, with a table of 6 L x L planes, to 512 (the paper's: 128); 0: "
@@ -292,10 +302,10 @@ std::vector<Option> options(const std::shared_ptr<Settings>& s) {
          integerInto([s](long long v) { s->plan.lut = static_cast<int>(v); }, 0, 512)},
         {"--sides",
          "NAME",
-         "Sides that block: front on closed meshes (auto, default), front, both",
+         "Sides that block: front, both, fine (both of the mesh, front of its levels), by the mesh (auto, default)",
          into(s->sides),
          false,
-         {"auto", "front", "both"}},
+         {"auto", "front", "fine", "both"}},
         {"--vectors",
          "NAME",
          "The processor's; the same bits for any (default widest)",

@@ -95,10 +95,10 @@ std::vector<double> truthOf(const WeldedMesh& mesh, std::span<const glm::vec3> p
     return out;
 }
 
-SelfTransfer transferOf(const AnimatedMesh& animation) {
+SelfTransfer transferOf(const AnimatedMesh& animation, const SelfTransferOptions& options) {
     WeldedMesh mesh = weldMesh(animation, "the exhibit's mesh");
     const std::vector<glm::vec3> rest = weldedPositions(mesh, animation.frames[0]);
-    return {std::move(mesh), rest, {}};
+    return {std::move(mesh), rest, options};
 }
 
 }  // namespace
@@ -111,10 +111,11 @@ ShownMotion openMotion(const Task& task, const TransferModel& model) {
     return out;
 }
 
-TransferStudy::TransferStudy(ProgramLoader& loader, const ShownMotion& motion, std::size_t rays)
+TransferStudy::TransferStudy(ProgramLoader& loader, const ShownMotion& motion, std::size_t rays,
+                             const SelfTransferOptions& options)
     : loader_(loader),
       camera_(motion.camera),
-      transfer_(transferOf(motion.animation)),
+      transfer_(transferOf(motion.animation, options)),
       gpu_(motion.animation.triangles, transfer_.mesh().weldOf) {
     for (const std::size_t f : motion.frames)
         addFrame(weldedPositions(transfer_.mesh(), motion.animation.frames[f]), rays);

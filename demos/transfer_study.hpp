@@ -41,7 +41,8 @@ ShownMotion openMotion(const Task& task, const TransferModel& model);
 class TransferStudy {
 public:
     /// \param rays  a vertex, of the truth
-    TransferStudy(ProgramLoader& loader, const ShownMotion& motion, std::size_t rays);
+    TransferStudy(ProgramLoader& loader, const ShownMotion& motion, std::size_t rays,
+                  const SelfTransferOptions& options = {});
 
     const std::vector<TransferStudyFrame>& frames() const { return frames_; }
     const SelfTransfer& transfer() const { return transfer_; }

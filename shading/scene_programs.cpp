@@ -217,6 +217,7 @@ void checkScene(const SceneDescription& scene, const std::vector<AssetTraits>& a
         if (node.volume >= 0 && scene.materials[static_cast<std::size_t>(node.material)].relief)
             throw Error(called("node", node.name, i) + ": expected a material without relief for a volume, found '" +
                         scene.materials[static_cast<std::size_t>(node.material)].name + "'");
+        checkUv(scene, node, called("node", node.name, i));
     }
     for (std::size_t i = 0; i < scene.volumes.size(); ++i) {
         const SceneVolume& volume = scene.volumes[i];

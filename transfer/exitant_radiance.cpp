@@ -21,9 +21,9 @@ LightCoefficients turnedLight(const HarmonicRotation& rotation, const LightCoeff
             "turned light: expected as many coefficients as the rotation has");
     require(isFinite(axis) && glm::length(axis) > 0 && std::isfinite(angle),
             "turned light: expected a finite angle and an axis other than 0");
-    std::vector<float> before(3 * count), after(3 * count);
+    std::vector<float> before(kLanes * count, 0.0f), after(3 * count);
     for (std::size_t i = 0; i < count; ++i)
-        for (std::size_t c = 0; c < 3; ++c) before[c * count + i] = static_cast<float>(light[i][static_cast<int>(c)]);
+        for (std::size_t c = 0; c < 3; ++c) before[i * kLanes + c] = static_cast<float>(light[i][static_cast<int>(c)]);
     const std::vector<Receiver> frames(3, turnedFrame(axis, angle));  // one a colour
     rotation.turn(frames.data(), 3, before.data(), after.data());
     LightCoefficients out(count);

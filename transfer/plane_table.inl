@@ -30,13 +30,13 @@ NACRE_INLINE unsigned edgePlanes(const BlockerRow* blockers, const Receiver& rec
     return lanes(volume != Floats{});
 }
 
-/// PlaneTable::indexOf.
+/// PlaneTable::indexOf, and some plane for n = 0: an edge seen end-on, whose triangle rounds to a volume.
 NACRE_INLINE Mask planeIndex(int size, const Columns& n) {
     const Floats ax = absolute(n.x), ay = absolute(n.y), az = absolute(n.z),
                  half = splat(0.5f * static_cast<float>(size));
     const Mask alongX = (ax >= ay) & (ax >= az), alongY = ~alongX & (ay >= az);
     const Floats major = choose(alongX, n.x, choose(alongY, n.y, n.z));
-    const Floats scale = half / (absolute(major) + splat(1e-37f));
+    const Floats scale = half / (absolute(major) + splat(1e-30f));
     const Mask last = Mask{} + (size - 1);
     Mask u = __builtin_convertvector(choose(alongX, n.y, n.x) * scale + half, Mask);
     Mask v = __builtin_convertvector(choose(alongX | alongY, n.z, n.y) * scale + half, Mask);

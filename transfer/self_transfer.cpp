@@ -65,6 +65,34 @@ void sortUnique(std::vector<std::uint32_t>& numbers) {
     numbers.erase(std::unique(numbers.begin(), numbers.end()), numbers.end());
 }
 
+/// How far connected parts are from enclosing something: Σ |Σ area vectors| / Σ areas, 0 for closed shells, 1 for flat
+/// sheets.
+double openness(std::span<const glm::uvec3> triangles, std::span<const glm::vec3> positions) {
+    std::vector<std::uint32_t> parent(positions.size());
+    std::iota(parent.begin(), parent.end(), 0u);
+    const auto root = [&](std::uint32_t v) {
+        while (parent[v] != v) v = parent[v] = parent[parent[v]];
+        return v;
+    };
+    for (const glm::uvec3& t : triangles)
+        for (int c = 1; c < 3; ++c) parent[root(t[c])] = root(t[0]);
+    std::vector<glm::dvec3> sums(positions.size(), glm::dvec3(0));
+    double area = 0, open = 0;
+    for (const glm::uvec3& t : triangles) {
+        const glm::dvec3 a = positions[t.x], n = glm::cross(glm::dvec3(positions[t.y]) - a, glm::dvec3(positions[t.z]) - a);
+        sums[root(t.x)] += n;
+        area += glm::length(n);
+    }
+    for (const glm::dvec3& n : sums) open += glm::length(n);
+    return area > 0 ? open / area : 1;
+}
+
+/// A triangle that the tests for facing let pass whichever way it faces.
+void passAnySide(BlockerRow& row) {
+    row.offset = -1e30f;
+    row.normalLength = 1e15f;
+}
+
 /// Distance of a point from a triangle's plane.
 float offPlane(const BlockerRow& row, const glm::vec3& p) {
     const float d = row.normal[0] * p.x + row.normal[1] * p.y + row.normal[2] * p.z - row.offset;
@@ -103,7 +131,10 @@ SelfTransfer::State::State(WeldedMesh m, std::span<const glm::vec3> rest, const 
     : mesh(std::move(m)), options(o), levels(makeBlockerLevels(mesh, rest, {o.coarse})),
       kernel(maskKernel(o.mask, o.vectors)), blockerKernels(blockerKernel(o.vectors)), rows(maskRows(o.mask)), integrals(maskIntegrals(o.mask, o.order)), rotation(o.order),
       open(openTransfer(o.order)) {
-    if (options.sides == BlockingSides::Auto) options.sides = mesh.closed ? BlockingSides::Front : BlockingSides::Both;
+    if (options.sides == BlockingSides::Auto)
+        options.sides = mesh.closed                       ? BlockingSides::Front
+                        : openness(mesh.triangles, rest) < 0.2 ? BlockingSides::Fine
+                                                          : BlockingSides::Both;
     for (const BlockerLevels::Level& level : levels.levels)
 {
         firstRow.push_back(corners.empty() ? 0u : firstRow.back() + static_cast<std::uint32_t>(levels.levels[corners.size() - 1].triangles.size()));
@@ -156,6 +187,8 @@ BlockersNow SelfTransfer::State::blockers(std::span<const glm::vec3> positions) 
         const std::span<const glm::vec3> at = l > 0 ? std::span<const glm::vec3>(moved[l]) : positions;
         for (const glm::uvec3& t : level.triangles) out.rows.push_back(blockerRow(at[t.x], at[t.y], at[t.z]));
     }
+    if (options.sides == BlockingSides::Fine)
+        for (std::size_t t = 0; t < levels.finest(); ++t) passAnySide(out.rows[t]);
     PatchColumns& columns = out.patches;
     columns.resize(levels.patches.size(), levelCount);
     for (std::size_t p = 0; p < levels.patches.size(); ++p) {
@@ -256,7 +289,7 @@ GroupResult SelfTransfer::State::computeGroup(std::size_t group, std::span<const
     scratch.indices.resize(room * vertices.size());
     scratch.counts.resize(vertices.size());
     scratch.receivers.resize(vertices.size());
-    const bool bothSides = options.sides == BlockingSides::Both;
+    const bool bothSides = options.sides == BlockingSides::Both, drawBoth = options.sides != BlockingSides::Front;
     for (std::size_t i = 0; i < vertices.size(); ++i) {
         scratch.receivers[i] = receiverAt(positions[vertices[i]], frame.normals[vertices[i]]);
         scratch.counts[i] = blockerKernels.cull(scratch.listed, scratch.receivers[i], bothSides, &scratch.indices[room * i]);
@@ -266,10 +299,10 @@ GroupResult SelfTransfer::State::computeGroup(std::size_t group, std::span<const
     const std::size_t words = maskWords(options.mask);
     scratch.masks.assign(words * vertices.size(), 0);
     for (std::size_t i = 0; i < vertices.size(); ++i) {
-        kernel.draw(*rows, blockersNow.rows.data(), scratch.receivers[i], bothSides, &scratch.indices[room * i], scratch.counts[i],
+        kernel.draw(*rows, blockersNow.rows.data(), scratch.receivers[i], drawBoth, &scratch.indices[room * i], scratch.counts[i],
                     &scratch.masks[words * i]);
         makeSkirts(vertices[i], scratch.receivers[i], positions, scratch);
-        kernel.draw(*rows, scratch.skirts.data(), scratch.receivers[i], bothSides, scratch.skirtIndices.data(),
+        kernel.draw(*rows, scratch.skirts.data(), scratch.receivers[i], drawBoth, scratch.skirtIndices.data(),
                     scratch.skirts.size(), &scratch.masks[words * i]);
         result.drawn += scratch.skirts.size();
     }

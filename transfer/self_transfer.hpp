@@ -9,15 +9,18 @@
 
 namespace nacre {
 
-/// Which sides of a triangle block. On closed meshes the sides that face the vertex are all that can be seen first.
-enum class BlockingSides { Auto, Front, Both };
+/// Which sides of a triangle block. On closed meshes the sides that face the vertex are all that can be seen first. Fine:
+/// both of the mesh's own triangles, the front of coarser levels', whose backs would hide vertices that they lie over;
+/// for meshes of shells with openings. Auto: Front when closed, Fine when the connected parts
+/// nearly enclose something, else (cloth) Both.
+enum class BlockingSides { Auto, Front, Fine, Both };
 
 struct SelfTransferOptions {
     int mask = 32;                 ///< N of N × N bits: 16, 32, 64, 128
     int order = 4;                 ///< highest band of harmonics, 0 to 6: (order + 1)² coefficients
     int rings = 1;                 ///< within so many rings of triangles about a vertex the mesh itself blocks: 1 or 2
     std::size_t coarse = 400;      ///< triangles of the coarsest level; 0 = the mesh itself everywhere
-    double lodAngle = 0.02;        ///< [rad] a level is used where it is off by less, seen from the vertex
+    double lodAngle = 0.2;         ///< [rad] a level is used where it is off by less, seen from the vertex
     BlockingSides sides = BlockingSides::Auto;
     VectorSet vectors = VectorSet::Widest;
     unsigned threads = 0;

@@ -126,5 +126,5 @@ TEST(BenchSweep, SettingsAreWordsThatTellThemApart) {
                     .maxBytes = 1000,
                     .maxFetches = 2}),
               "fit 64, 2 terms, unorm8, at most 1000 bytes, at most 2 fetches");
-    EXPECT_EQ(text({}), "auto");
+    EXPECT_EQ(text(Setting{}), "auto");
 }

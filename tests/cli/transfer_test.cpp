@@ -134,6 +134,22 @@ TEST(CommandTransfer, PaperMethodErrsMoreAndSaysItsTable) {
               2);
 }
 
+TEST(CommandTransfer, SidesAreSaidAsResolved) {
+    const Scratch scratch;
+    writeFile(scratch / "corner.obj", corner());
+    writeFile(scratch / "closed.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n");
+    const auto sides = [&](const char* model, const std::vector<std::string>& more = {}) {
+        std::vector<std::string> words = {"transfer", scratch / model, "-o", scratch / "a.tv", "--json"};
+        words.insert(words.end(), more.begin(), more.end());
+        return json::parse(nacre(words).out)["options"]["sides"].get<std::string>();
+    };
+    EXPECT_EQ(sides("closed.obj"), "front");
+    EXPECT_EQ(sides("corner.obj"), "both");
+    EXPECT_EQ(sides("corner.obj", {"--sides", "fine"}), "fine");
+    EXPECT_EQ(sides("closed.obj", {"--lut", "8"}), "front");
+    EXPECT_EQ(sides("corner.obj", {"--lut", "8"}), "both");
+}
+
 TEST(CommandTransfer, RightAngleIsWithinItsBound) {     // the mesh itself: what is left is the mask's
     constexpr double kMask32 = 0.02, kMask128 = 0.006;  // measured 0.0138, 0.0041
     const Scratch scratch;
@@ -257,6 +273,7 @@ TEST(CommandTransfer, WrongUsageIsTwoInOneLine) {
         {{"--clip", "run"}, "cloth has no clips"},
         {{"--weights", "1"}, "--weights"},
         {{"--lut", "513"}, "0 to 512"},
+        {{"--lut", "128", "--sides", "fine"}, "found 'fine'"},
         {{"--lut", "128", "--order", "2"}, "--order: expected no --lut"},
         {{"--turn", "10"}, "expected --ply"},
         {{"--ply", "a#b#.ply"}, "one row of #"},

@@ -160,7 +160,7 @@ TEST_F(Scenes, WhatDoesNotFitIsNamed) {
     EXPECT_EQ(messageOf([](SceneDescription& s) {
                   for (glm::vec2& uv : s.meshes[0].mesh.uvs) uv.y = 0.5f;  // a line
               }),
-              "node 'floor': expected a mesh with uv for the relief of 'floor', found none in 'floor'");
+              "node 'floor': expected a mesh with uv for the relief of 'floor', found none in 'square'");
     EXPECT_NE(messageOf([](SceneDescription& s) { s.materials[2].model = "wood"; }).find("material 'ring': model: "),
               std::string::npos);
     EXPECT_EQ(messageOf([](SceneDescription& s) { s.sky.asset = test::kFresnel; }),

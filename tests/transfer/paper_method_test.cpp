@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <bit>
 #include <cmath>
 #include <random>
 
@@ -149,6 +150,17 @@ TEST(PlaneTable, SameBitsForAllVectors) {
         }
         EXPECT_NE(first, std::vector<std::uint32_t>(kDiskSize, 0));
     }
+}
+
+TEST(PlaneTable, AnEdgeSeenEndOnIsAtMostALine) {
+    const auto table = planeTable(128);
+    for (const Triangle& t : someTriangles(2000))
+        for (const PlaneTable* planes : {table.get(), static_cast<const PlaneTable*>(nullptr)}) {
+            const DiskMask mask = drawn(planes, {t.c, t.a, 2.0f * t.a}, true);
+            int bits = 0;
+            for (int j = 0; j < kDiskSize; ++j) bits += std::popcount(mask.rows[j] & diskGrid().inside.rows[j]);
+            EXPECT_LE(bits, kDiskSize);
+        }
 }
 
 TEST(PlaneTable, RefusesSizes) {

@@ -73,11 +73,12 @@ protected:
             return settled(line) && line.contains("places") && line["places"].contains(name);
         });
     }
-    Image screenshot(Viewer& viewer, const json& before) const {
+    /// \param line  the last one of the trace, then the next settled one: nothing more comes until something happens
+    Image screenshot(Viewer& viewer, json& line) const {
         display_.send({"key", "s"});
-        const json shot =
-            viewer.until([&](const json& line) { return line["screenshot"] != before["screenshot"] && settled(line); });
-        return readImageFile(std::filesystem::path(shot["screenshot"].get<std::string>()).replace_extension(".exr"))
+        line = viewer.until(
+            [before = line["screenshot"]](const json& l) { return l["screenshot"] != before && settled(l); });
+        return readImageFile(std::filesystem::path(line["screenshot"].get<std::string>()).replace_extension(".exr"))
             .image;
     }
     /// What a session draws after the same edit.
@@ -112,7 +113,7 @@ TEST_F(ViewerPanel, AnotherFileTakesAnAssetsPlace) {
     click(offered(viewer, "Baked assets"), "Baked assets");
     click(offered(viewer, "file##paint"), "file##paint");
     click(offered(viewer, "file##paint/shiny.exr"), "file##paint/shiny.exr");
-    const json after = viewer.until([](const json& line) { return line["assets"][0] == "shiny.exr" && settled(line); });
+    json after = viewer.until([](const json& line) { return line["assets"][0] == "shiny.exr" && settled(line); });
     EXPECT_THAT(after["problems"], IsEmpty());
     const Image picture = screenshot(viewer, after);
     EXPECT_LE(differing(picture, expected([&](ViewerSession& s) { s.replaceAsset(0, scratch_ / "shiny.exr"); })),
@@ -133,19 +134,19 @@ TEST_F(ViewerPanel, ABakedBrdfIsChosenForTheMesh) {
 
 TEST_F(ViewerPanel, AReliefIsAddedAndTakenAway) {
     Viewer viewer(display_, words(file()));
-    const Image flat = screenshot(viewer, viewer.until(settled));
-    click(offered(viewer, "relief"), "relief");
+    json line = offered(viewer, "relief");
+    const Image flat = screenshot(viewer, line);
+    click(line, "relief");
     click(offered(viewer, "relief/spike.exr"), "relief/spike.exr");
-    const json after = offered(viewer, "Flat");
-    EXPECT_THAT(after["assets"], ElementsAre("dull.exr", "spike.exr"));
-    EXPECT_THAT(after["problems"], IsEmpty());
-    const Image rough = screenshot(viewer, after);
+    line = offered(viewer, "Flat");
+    EXPECT_THAT(line["assets"], ElementsAre("dull.exr", "spike.exr"));
+    EXPECT_THAT(line["problems"], IsEmpty());
+    const Image rough = screenshot(viewer, line);
     EXPECT_LE(differing(rough, expected([&](ViewerSession& s) { s.setRelief(0, scratch_ / "spike.exr"); })), kSame);
     EXPECT_GT(differing(rough, flat), 0.05);
-    const json before = offered(viewer, "Flat");
-    click(before, "Flat");
-    const json last = viewer.until([](const json& line) { return settled(line) && !line["places"].contains("Flat"); });
-    EXPECT_EQ(differing(screenshot(viewer, last), flat), 0);
+    click(line, "Flat");
+    line = viewer.until([](const json& l) { return settled(l) && !l["places"].contains("Flat"); });
+    EXPECT_EQ(differing(screenshot(viewer, line), flat), 0);
 }
 
 TEST_F(ViewerPanel, AMeshWithoutTextureCoordinatesIsOfferedNoRelief) {
