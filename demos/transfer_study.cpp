@@ -44,7 +44,7 @@ ShownMotion motionOf(const Task& task, const TransferModel& model) {
         fmt::format("{}: {} is not there (demos/fetch.sh gets it): another cloth stands in", task.id, file.string()));
     options.frames = 120;
     options.seed = 7;
-    return {loadMotion("cloth", options), {}, {}, ""};
+    return {loadMotion("cloth", options), {}, {}, "", true};
 }
 
 Camera cameraOf(const ShownMotion& motion, const TransferModel& model) {

@@ -34,6 +34,7 @@ struct ShownMotion {
     std::vector<std::size_t> frames;  ///< of it, shown
     Camera camera;                    ///< sees all of these
     std::string command;              ///< what a command line calls it; empty: nothing there does
+    bool standsIn = false;            ///< for a file that isn't there
 };
 /// Where the file isn't there another cloth stands in, and task.notes says so.
 ShownMotion openMotion(const Task& task, const TransferModel& model);
