@@ -39,11 +39,6 @@ std::vector<float> scalesOf(int order) {
     return scales;
 }
 
-double harmonic(int l, int m, const Vec3& d) {
-    const double phi = std::atan2(d.y, d.x), p = harmonicOfHeight(l, std::abs(m), d.z);
-    return m < 0 ? p * std::sin(-m * phi) : p * std::cos(m * phi);
-}
-
 }  // namespace
 
 /// The best-conditioned of 300 sets of random directions, by the worst band; deterministic.
@@ -64,8 +59,10 @@ HarmonicRotation::HarmonicRotation(int order) : order_(order) {
         double worst = 1e30;
         for (int l = 0; l <= order; ++l) {
             Eigen::MatrixXd basis(2 * l + 1, count);
-            for (int m = -l; m <= l; ++m)
-                for (int j = 0; j < count; ++j) basis(l + m, j) = harmonic(l, m, directions[static_cast<std::size_t>(j)]);
+            for (int j = 0; j < count; ++j) {
+                const Vec3& d = directions[static_cast<std::size_t>(j)];
+                for (int m = -l; m <= l; ++m) basis(l + m, j) = harmonicAt(l, m, d.z, std::atan2(d.y, d.x));
+            }
             const Eigen::JacobiSVD<Eigen::MatrixXd> svd(basis, Eigen::ComputeThinU | Eigen::ComputeThinV);
             worst = std::min(worst, svd.singularValues().minCoeff());
             if (worst <= best) break;

@@ -1,5 +1,6 @@
 #include "transfer/mask_kernel.hpp"
 
+#include <cmath>
 #include <cstring>
 #include <string>
 #if defined(__x86_64__)
@@ -28,6 +29,13 @@ MaskKernel kernelOf([[maybe_unused]] VectorSet set) {
 BlockerRow blockerRow(const glm::vec3& a, const glm::vec3& b, const glm::vec3& c) {
     const glm::vec3 n = glm::cross(b - a, c - a);
     return {{a.x, a.y, a.z, b.x, b.y, b.z, c.x, c.y, c.z}, {n.x, n.y, n.z}, glm::dot(n, a), glm::length(n), {}};
+}
+
+Receiver receiverAt(const glm::vec3& point, const glm::vec3& normal) {
+    const glm::vec3& n = normal;
+    const float s = std::copysign(1.0f, n.z), a = -1 / (s + n.z);
+    const glm::vec3 tangent(1 + s * n.x * n.x * a, s * n.x * n.y * a, -s * n.x);
+    return {point, tangent, glm::cross(n, tangent), n};
 }
 
 VectorSet vectorSetFromString(const std::string& name) {

@@ -24,6 +24,9 @@ struct Receiver {
     glm::vec3 point{0}, tangent{1, 0, 0}, bitangent{0, 1, 0}, normal{0, 0, 1};
 };
 
+/// A frame about a unit normal (Duff et al. 2017).
+Receiver receiverAt(const glm::vec3& point, const glm::vec3& normal);
+
 /// Which processor's vectors compute. All give the same bits.
 enum class VectorSet { Plain, Avx2, Avx512, Widest };
 /// plain, avx2, avx512, widest \throws std::invalid_argument that lists them

@@ -5,15 +5,6 @@
 #include "core/error.hpp"
 
 namespace nacre {
-namespace {
-
-double harmonic(int l, int m, double z, double phi) {
-    const double p = harmonicOfHeight(l, std::abs(m), z);
-    return m < 0 ? p * std::sin(-m * phi) : p * std::cos(m * phi);
-}
-
-}  // namespace
-
 BrdfOfDirections phongBrdf(float exponent) {
     require(std::isfinite(exponent) && exponent >= 0, "phongBrdf: exponent must be finite, >= 0");
     return [exponent](const glm::vec3& wo, std::span<const glm::vec3> wi, std::span<float> f) {
@@ -40,7 +31,7 @@ MaskShading::MaskShading(int size, int order, MaskDetail detail)
                     double sum = 0;
                     for (int i = 0; i < kPoints; ++i)
                         for (int j = 0; j < kPoints; ++j)
-                            sum += harmonic(l, m, std::sqrt(1 - (step + (i + 0.5) / kPoints) / edge),
+                            sum += harmonicAt(l, m, std::sqrt(1 - (step + (i + 0.5) / kPoints) / edge),
                                             2 * kPi * (row + (j + 0.5) / kPoints) / edge);
                     harmonics_.push_back(static_cast<float>(sum / (kPoints * kPoints)));
                 }

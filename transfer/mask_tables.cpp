@@ -23,6 +23,11 @@ double harmonicOfHeight(int l, int m, double x) {
     return here;
 }
 
+double harmonicAt(int l, int m, double z, double phi) {
+    const double p = harmonicOfHeight(l, std::abs(m), z);
+    return m < 0 ? p * std::sin(-m * phi) : p * std::cos(m * phi);
+}
+
 std::vector<double> openTransfer(int order) {
     std::vector<double> open;
     constexpr int kSteps = 4096;  // midpoint in cosθ: 2 ∫ K P_l(x) x dx

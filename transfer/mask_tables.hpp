@@ -52,5 +52,7 @@ std::vector<double> openTransfer(int order);
 
 /// K_lm P_lm(x), m ≥ 0, of orthonormal real harmonics without the phase (−1)^m: y_lm = √2^{m > 0} K_lm P_lm cos mφ, …
 double harmonicOfHeight(int l, int m, double x);
+/// y_lm of the direction at height z and azimuth phi, −l ≤ m ≤ l.
+double harmonicAt(int l, int m, double z, double phi);
 
 }  // namespace nacre

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <ctime>
 
 #include "core/error.hpp"
 #include "core/math.hpp"
@@ -10,6 +9,7 @@
 #include "transfer/blocker_kernel.hpp"
 #include "transfer/plane_table.hpp"
 #include "transfer/receiver_groups.hpp"
+#include "transfer/thread_seconds.hpp"
 
 namespace nacre {
 namespace {
@@ -17,24 +17,6 @@ namespace {
 constexpr int kOrder = 4;
 constexpr std::size_t kCoefficients = 25;
 constexpr std::size_t kTask = 256;  ///< vertices
-
-/// Of this thread: what waits for a processor isn't work.
-double now() {
-    timespec t{};
-    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t);
-    return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
-}
-
-Receiver receiverAt(const glm::vec3& point, const glm::vec3& normal) {
-    const glm::vec3 side = std::abs(normal.x) < 0.6f ? glm::vec3(1, 0, 0) : glm::vec3(0, 1, 0);
-    const glm::vec3 tangent = glm::normalize(glm::cross(side, normal));
-    return {point, tangent, glm::cross(normal, tangent), normal};
-}
-
-double harmonic(int l, int m, const glm::dvec3& s) {
-    const double phi = std::atan2(s.y, s.x), p = harmonicOfHeight(l, std::abs(m), s.z);
-    return m < 0 ? p * std::sin(-m * phi) : p * std::cos(m * phi);
-}
 
 /// Blocks' weights and what an open hemisphere has.
 struct Integral {
@@ -62,7 +44,7 @@ Integral integralOf(bool sampledBlocks) {
             for (int m = -l; m <= l; ++m, ++c) {
                 double mean = 0;
                 for (const glm::dvec3& s : directions)
-                    mean += harmonic(l, m, s) / static_cast<double>(directions.size());
+                    mean += harmonicAt(l, m, s.z, std::atan2(s.y, s.x)) / static_cast<double>(directions.size());
                 out.blocks.perBit[block][c] = static_cast<float>(mean / grid.count);
                 out.open[c] += mean * bits / grid.count;
             }
@@ -182,9 +164,9 @@ void PaperMethod::State::findNear() {
 TaskResult PaperMethod::State::computeTask(std::span<const std::uint32_t> of, const BlockersNow& blockers,
                                            std::span<const glm::vec3> positions, TransferFrame& frame) const {
     TaskResult result;
-    double before = now();  // read by the sixteen vertices, since that takes time too: culling counts as rasterization
+    double before = threadSeconds();  // read by the sixteen vertices, since that takes time too: culling counts as rasterization
     const auto lap = [&](double& seconds) {
-        const double here = now();
+        const double here = threadSeconds();
         seconds += here - before;
         before = here;
     };
@@ -244,7 +226,7 @@ TransferFrame PaperMethod::compute(std::span<const glm::vec3> positions) const {
     for (const glm::vec3& p : positions)
         require(std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z),
                 "paper's method: positions that are not finite");
-    const double start = now();
+    const double start = threadSeconds();
     TransferFrame frame;
     frame.coefficients.assign(positions.size() * kCoefficients, 0);
     frame.normals = vertexNormals(s.mesh.triangles, s.corners, positions, s.options.threads);
@@ -255,7 +237,7 @@ TransferFrame PaperMethod::compute(std::span<const glm::vec3> positions) const {
     std::vector<std::uint32_t> chosen;
     for (const std::uint32_t v : s.vertices)
         if (frame.normals[v] != glm::vec3(0)) chosen.push_back(v);
-    frame.seconds.transform = now() - start;
+    frame.seconds.transform = threadSeconds() - start;
     frame.computed = chosen.size();
     std::vector<TaskResult> results((chosen.size() + kTask - 1) / kTask);
     parallelFor(results.size(), s.options.threads, [&](std::size_t task) {

@@ -2,26 +2,19 @@
 
 #include <algorithm>
 #include <cmath>
-#include <ctime>
 #include <numeric>
 #include <utility>
 
 #include "core/error.hpp"
 #include "core/parallel.hpp"
 #include "transfer/blocker_kernel.hpp"
+#include "transfer/thread_seconds.hpp"
 
 namespace nacre {
 namespace {
 
 constexpr std::size_t kGroup = kLanes;        ///< vertices that share a list
 constexpr std::size_t kTimedGroups = 8;   ///< one of so many is timed
-
-/// Of this thread: what waits for a processor isn't work.
-double threadSeconds() {
-    timespec t{};
-    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t);
-    return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
-}
 
 /// All levels in one frame.
 struct BlockersNow {
@@ -49,16 +42,6 @@ struct Scratch {
     std::vector<float> local, world, sums;
     std::vector<Receiver> receivers;
 };
-
-glm::vec3 anyTangent(const glm::vec3& n) {  // Duff et al. 2017
-    const float s = std::copysign(1.0f, n.z), a = -1 / (s + n.z);
-    return {1 + s * n.x * n.x * a, s * n.x * n.y * a, -s * n.x};
-}
-
-Receiver receiverAt(const glm::vec3& point, const glm::vec3& normal) {
-    const glm::vec3 tangent = anyTangent(normal);
-    return {point, tangent, glm::cross(normal, tangent), normal};
-}
 
 void sortUnique(std::vector<std::uint32_t>& numbers) {
     std::sort(numbers.begin(), numbers.end());

@@ -43,8 +43,7 @@ struct TransferFrame {
 /// diffuse f = 1/π (radiance = albedo Σ L_i V_i for radiance coefficients L_i). What is integrated is the share hidden,
 /// taken from the transfer of an open hemisphere, which is known exactly.
 ///
-/// The three triangles' worth of surface around a vertex hide what lies below them: they are drawn as skirts, down to the
-/// direction −n. Further blockers come from the level of detail that is close enough.
+/// The triangles at a vertex hide what lies below them: they are drawn as skirts, down to the direction −n. Further blockers come from the level of detail that is close enough.
 class SelfTransfer {
 public:
     /// \param rest  positions of a frame by which levels of detail and groups of vertices are made; finite

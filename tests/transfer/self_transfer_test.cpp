@@ -110,7 +110,7 @@ TEST(SelfTransfer, ASphereShadowsNothing) {
     }
 }
 
-TEST(SelfTransfer, AgreesWithRays) {  // measured 0.8 %, 0.4 % and 2.0 %; the truth's own noise is 0.2 %
+TEST(SelfTransfer, AgreesWithRays) {  // issue's bars for the mesh itself; a margin on 3 % for levels
     const AnimatedMesh mesh = hook(40, 24);
     EXPECT_LT(errorOf(computed(mesh, withCoarse(0))).mean, 0.015);
     SelfTransferOptions fine = withCoarse(0);
