@@ -93,6 +93,7 @@ SceneErrors measureScene(SceneRenderer& renderer, const Image& picture, const Sc
     for (std::size_t i = 0; i < list.size(); ++i) {
         const bool brdf = list[i].without.bakedBrdf;
         renderer.switches = list[i].off;
+        renderer.switches.shadowMethod = before.shadowMethod;
         if (brdf) renderer.switches.reflectance = SceneReflectance::Direct;
         const Image off = shoot(renderer, shot);
         const ImageDifference without = compareImages(brdf ? picture : off, traced[i + 2], out.white);

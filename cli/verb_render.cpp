@@ -27,6 +27,7 @@ struct Settings {
     SceneShot shot;
     double white = 0;  ///< 0: of the picture
     int rays = 4;
+    SceneSwitches switches;
     bool reference = false, shares = false, asJson = false;
 };
 
@@ -63,6 +64,19 @@ void takeSize(SceneShot& shot, const std::string& text) {
     };
     shot.width = number(std::string_view(text).substr(0, x));
     shot.height = number(std::string_view(text).substr(x == std::string::npos ? text.size() : x + 1));
+}
+
+ShadowMethod shadowMethod(const std::string& text) {
+    if (text == "maps") return ShadowMethod::Maps;
+    if (text == "volumes") return ShadowMethod::Volumes;
+    throw UsageError(fmt::format("--shadows: expected maps or volumes, found '{}'", text));
+}
+
+json volumesJson(const ShadowVolumeCounts& c) {
+    return {{"made", c.made},
+            {"bytes", c.bytes},
+            {"point_bytes", c.pointBytes},
+            {"bytes_of_a_volume_a_polygon", c.bytesAPolygon}};
 }
 
 json differenceJson(const ImageDifference& d) {
@@ -105,6 +119,7 @@ void runRender(const Context& context, const Settings& s) {
     const nacre::Context gl(GlApi::Core33);
     ProgramLoader loader;
     SceneRenderer renderer(loader, std::move(scene));
+    renderer.switches = s.switches;
     report(progress, "drawing", 0);
     const Stopwatch watch;
     const Image picture = shoot(renderer, s.shot);
@@ -117,6 +132,8 @@ void runRender(const Context& context, const Settings& s) {
                  {"seconds", seconds},
                  {"programs", renderer.programs().size()},
                  {"renderer", gl.description()}};
+    if (s.switches.shadowMethod == ShadowMethod::Volumes)
+        data["shadow_volumes"] = volumesJson(renderer.shadowVolumes());
     double white = s.white > 0 ? s.white : pictureWhite(picture);
     std::string text = fmt::format("{}: {} x {} pixels of {} samples, {} programs\n", s.output, s.shot.width,
                                    s.shot.height, s.shot.samples * s.shot.samples, renderer.programs().size());
@@ -167,6 +184,8 @@ Verb renderVerb(Context& context) {
              s->shot.time = v[0];
          }},
         {"--white", "W", "Radiance shown as white in PNG", positiveInto([s](double v) { s->white = v; })},
+        {"--shadows", "METHOD", "Of lights that have shadows: maps (default) or volumes, which are hard and exact",
+         [s](const std::string& text) { s->switches.shadowMethod = shadowMethod(text); }},
         {"--reference", "", "Trace the same scene, and print the error", into(s->reference)},
         {"--rays", "N", "Of the reference: N x N rays a pixel (default 4)",
          integerInto([s](long long v) { s->rays = static_cast<int>(v); }, 1, 16)},

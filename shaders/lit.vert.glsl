@@ -12,6 +12,8 @@ out vec3 v_normal;
 out vec4 v_tangent;
 out vec2 v_uv;
 
+invariant gl_Position;  // shadow volumes and passes that add light find the same depth
+
 void main() {
     v_position = nacre_mesh_position(position);
     v_normal = nacre_mesh_normal(normal);

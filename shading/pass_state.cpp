@@ -99,13 +99,24 @@ void setDrawState(const RenderTarget& target) {
     glDisable(GL_BLEND);
 }
 
-void drawMesh(const Program& program, const RenderTarget& target, const GpuMesh& mesh, const glm::dmat4& toWorld) {
+static void setAddLight() {
+    glDepthFunc(GL_EQUAL);
+    glDepthMask(GL_FALSE);
+    glEnable(GL_BLEND);
+    glBlendEquation(GL_FUNC_ADD);
+    glBlendFuncSeparate(GL_ONE, GL_ONE, GL_ZERO, GL_ONE);
+}
+
+void drawMesh(const Program& program, const RenderTarget& target, const GpuMesh& mesh, const glm::dmat4& toWorld,
+              DrawMode mode) {
     setModel(program, toWorld);
     setDrawState(target);
+    if (mode == DrawMode::AddLight) setAddLight();
     glFrontFace(mirrors(toWorld) ? GL_CW : GL_CCW);
     program.use();
     mesh.draw();
     glFrontFace(GL_CCW);
+    if (mode == DrawMode::AddLight) setDrawState(target);
     checkGl("drawing a mesh");
 }
 

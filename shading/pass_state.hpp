@@ -32,9 +32,13 @@ void setModel(const Program& program, const glm::dmat4& toWorld);
 /// Binds the target; depth test and depth write on, face culling and blending off.
 void setDrawState(const RenderTarget& target);
 
+/// Fill: setDrawState. AddLight: what has the depth that stands in the target already is added to its colour, alpha and
+/// depth stay (MPR section 7.2); the same vertex shader must have drawn it.
+enum class DrawMode { Fill, AddLight };
+
 /// Draws in that state, and leaves it so. Front
 /// faces are those seen from outside, mirrored or not; afterwards counter-clockwise ones again.
 void drawMesh(const Program& program, const RenderTarget& target, const GpuMesh& mesh,
-              const glm::dmat4& toWorld = glm::dmat4(1));
+              const glm::dmat4& toWorld = glm::dmat4(1), DrawMode mode = DrawMode::Fill);
 
 }  // namespace nacre

@@ -19,12 +19,17 @@ namespace nacre {
 /// per vertex (HSE section 1.1): of at most kMaxVertexLights lights, without relief, shadows and surrounding.
 enum class SceneReflectance { FactoredOrModel, Direct, FastPhong };
 
+/// How shadows of lights that have a SceneShadow are found. Maps: shading/shadow_map.hpp. Volumes: hard ones, exact to
+/// the pixel (shading/multipass/shadow_volume.hpp), of meshes alone; desktop OpenGL.
+enum class ShadowMethod { Maps, Volumes };
+
 /// The approximations of a picture, each to be switched off by itself.
 struct SceneSwitches {
     SceneReflectance reflectance = SceneReflectance::FactoredOrModel;
     bool lamps = true;  ///< light of the scene's lights
     bool ambient = true;
-    bool shadows = true;                       ///< shadow maps
+    bool shadows = true;  ///< of lights that have a SceneShadow
+    ShadowMethod shadowMethod = ShadowMethod::Maps;
     bool relief = true;                        ///< bumped normals, and all of a relief's light
     std::optional<BumpShadow> reliefShadow{};  ///< instead of the materials' own, where the asset has it
     bool indirect = true;                      ///< bounced light in reliefs
@@ -60,6 +65,9 @@ struct SceneProgram {
 
 /// Whether lights matter: they are on, there are some, and the material has a BRDF.
 bool takesLamps(const SceneDescription& scene, const SceneMaterial& material, const SceneSwitches& switches);
+
+/// Whether shadow maps are drawn and looked up.
+bool mapsShadows(const SceneSwitches& switches);
 
 /// The program that draws a material. \param shadows  shadowDefines of the lights' maps, for nodes that receive them
 SceneProgram materialProgram(const SceneDescription& scene, const SceneMaterial& material,

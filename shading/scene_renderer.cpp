@@ -13,6 +13,7 @@
 #include "shading/environment_pass.hpp"
 #include "shading/gpu_relief_light.hpp"
 #include "shading/mean_light.hpp"
+#include "shading/multipass/scene_shadow_volumes.hpp"
 #include "shading/pass_state.hpp"
 #include "shading/shadow_map.hpp"
 #include "shading/volume_pass.hpp"
@@ -148,6 +149,7 @@ struct SceneRenderer::State {
     std::vector<std::optional<GpuDirectBrdf>> models;  ///< one a material: what Direct evaluates
     std::map<std::size_t, NodeLight> nodeLights;       ///< of nodes whose relief has indirect light
     std::vector<LightShadow> lightShadows;             ///< one a light
+    std::optional<SceneShadowVolumes> shadowVolumes;   ///< with ShadowMethod::Volumes
     PassClock clock;
     bool timing = false;
 
@@ -307,7 +309,7 @@ struct SceneRenderer::State {
 
     /// Those in use, one a light or none; for nodes that receive shadows.
     std::vector<const ShadowMap*> shadowsOf(const SceneSwitches& on) const {
-        if (!on.shadows || on.reflectance == SceneReflectance::FastPhong) return {};
+        if (!mapsShadows(on) || on.reflectance == SceneReflectance::FastPhong) return {};
         std::vector<const ShadowMap*> out;
         bool any = false;
         for (const LightShadow& shadow : lightShadows) {
@@ -336,13 +338,17 @@ struct SceneRenderer::State {
         setLights(program, view);
     }
 
+    /// \param mode  AddLight: on nodes that take lamps, and receive shadows or not as `receivers` says
     void drawNodes(const RenderTarget& target, const Camera& camera, const SceneSwitches& on,
-                   const std::vector<glm::dmat4>& nodes, const std::vector<Light>& lights) {
+                   const std::vector<glm::dmat4>& nodes, const std::vector<Light>& lights,
+                   DrawMode mode = DrawMode::Fill, bool receivers = true) {
         const glm::dmat4 toView = camera.view();
         std::vector<Draw> draws;
         for (std::size_t i = 0; i < scene.nodes.size(); ++i) {
             const DrawnMesh* mesh = meshOf(i);
             if (!mesh) continue;
+            const bool added = takesLamps(scene, materialOf(i), on) && scene.nodes[i].receivesShadow == receivers;
+            if (mode == DrawMode::AddLight && !added) continue;
             const glm::dmat3 m(nodes[i]);
             const double scale =
                 std::sqrt(std::max({glm::dot(m[0], m[0]), glm::dot(m[1], m[1]), glm::dot(m[2], m[2])}));
@@ -371,7 +377,7 @@ struct SceneRenderer::State {
                 program = &next;
                 material = own ? -1 : scene.nodes[draw.node].material;
             }
-            drawMesh(next, target, *meshOf(draw.node)->gpu, nodes[draw.node]);
+            drawMesh(next, target, *meshOf(draw.node)->gpu, nodes[draw.node], mode);
         }
     }
 
@@ -397,6 +403,50 @@ struct SceneRenderer::State {
         }
     }
 
+    /// Light of lamps with a SceneShadow, each added where its volumes' count is zero (MPR section 7.2).
+    void addShadowedLight(const RenderTarget& target, const Camera& camera, SceneSwitches on,
+                          const std::vector<glm::dmat4>& nodes, const std::vector<Light>& lights) {
+        const ShadowSight sight = ShadowSight::of(camera, static_cast<double>(target.width()) / target.height());
+        on.ambient = on.surrounding = false;
+        ShadowStencil stencil(loader);
+        for (std::size_t i = 0; i < lights.size(); ++i) {
+            if (!scene.lights[i].shadow) continue;
+            std::vector<Light> alone = lights;
+            for (std::size_t k = 0; k < alone.size(); ++k)
+                if (k != i) alone[k].color = Rgb(0);
+            stencil.begin(target);
+            stencil.lit();
+            drawNodes(target, camera, on, nodes, alone, DrawMode::AddLight, false);
+            stencil.count(target, shadowVolumes->of(i), homogeneous(lights[i]), sight);
+            stencil.lit();
+            drawNodes(target, camera, on, nodes, alone, DrawMode::AddLight, true);
+            stencil.end(target);
+        }
+    }
+
+    /// Everything but light of lamps with a SceneShadow; then that. \throws nacre::Error for nodes with volumes
+    void drawWithShadowVolumes(const RenderTarget& target, const Camera& camera, const SceneSwitches& on,
+                               const std::vector<glm::dmat4>& nodes, const std::vector<Light>& lights) {
+        for (const SceneNode& node : scene.nodes)
+            if (node.volume >= 0)
+                throw Error(
+                    fmt::format("shadow volumes: expected meshes alone, found a volume at node '{}'", node.name));
+        clock("shadow volumes", [&] {
+            if (!shadowVolumes) shadowVolumes.emplace(scene);
+            shadowVolumes->update(nodes, lights);
+        });
+        std::vector<Light> unshadowed = lights;
+        SceneSwitches rest = on;
+        rest.lamps = false;
+        for (std::size_t i = 0; i < lights.size(); ++i)
+            if (scene.lights[i].shadow)
+                unshadowed[i].color = Rgb(0);
+            else
+                rest.lamps = true;
+        clock("surfaces", [&] { drawNodes(target, camera, rest, nodes, unshadowed); });
+        clock("light", [&] { addShadowedLight(target, camera, on, nodes, lights); });
+    }
+
     void render(const RenderTarget& target, const Camera& camera, double time, const SceneSwitches& on) {
         const std::vector<glm::dmat4> nodes = nodeTransforms(scene, time);
         const std::vector<Light> lights = lightsInWorld(scene, nodes);
@@ -404,11 +454,13 @@ struct SceneRenderer::State {
         clock.start(timing);
         clock("relief light", [&] { updateNodeLights(on, nodes, lights); });
         const double aspect = static_cast<double>(target.width()) / target.height();
-        if (on.shadows && on.lamps) clock("shadow maps", [&] { updateShadows(camera, aspect, nodes, lights); });
-        clock("surfaces", [&] {
-            target.clear(glm::vec4(glm::vec3(on.sky ? scene.sky.color : Rgb(0)), 1));
-            drawNodes(target, camera, on, nodes, lights);
-        });
+        if (mapsShadows(on) && on.lamps) clock("shadow maps", [&] { updateShadows(camera, aspect, nodes, lights); });
+        target.clear(glm::vec4(glm::vec3(on.sky ? scene.sky.color : Rgb(0)), 1));
+        if (on.shadows && on.lamps && on.shadowMethod == ShadowMethod::Volumes &&
+            on.reflectance != SceneReflectance::FastPhong)
+            drawWithShadowVolumes(target, camera, on, nodes, lights);
+        else
+            clock("surfaces", [&] { drawNodes(target, camera, on, nodes, lights); });
         if (!volumes.empty()) clock("volumes", [&] { drawVolumes(target, camera, volumeSwitches(on), nodes, lights); });
         if (scene.sky.asset < 0 || !on.sky) return;
         clock("sky", [&] {
@@ -461,6 +513,7 @@ struct SceneRenderer::State {
         volumes = std::move(nextVolumes);
         nodeLights.clear();
         lightShadows.clear();
+        shadowVolumes.reset();
         prepareModels();
     }
 };
@@ -487,6 +540,10 @@ const SceneAssets& SceneRenderer::assets() const { return state_->assets; }
 
 void SceneRenderer::render(const RenderTarget& target, const Camera& camera, double time) {
     state_->render(target, camera, time, switches);
+}
+
+ShadowVolumeCounts SceneRenderer::shadowVolumes() const {
+    return state_->shadowVolumes ? state_->shadowVolumes->counts() : ShadowVolumeCounts();
 }
 
 void SceneRenderer::setTiming(bool on) { state_->timing = on; }

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/scene_description.hpp"
+#include "shading/multipass/scene_shadow_volumes.hpp"
 #include "shading/program.hpp"
 #include "shading/render_target.hpp"
 #include "shading/scene_assets.hpp"
@@ -14,7 +15,8 @@
 
 namespace nacre {
 
-/// What a part of a frame took: `relief light`, `shadow maps`, `surfaces`, `volumes`, `sky`.
+/// What a part of a frame took: `relief light`, `shadow maps` or `shadow volumes` (made), `surfaces`, `light` (with
+/// volumes counted), `volumes`, `sky`.
 struct PassTime {
     std::string name;
     double wallSeconds = 0;  ///< between two glFinish
@@ -42,6 +44,9 @@ public:
     void render(const RenderTarget& target, double time = 0) { render(target, scene().camera, time); }
 
     SceneSwitches switches;  ///< of the next frame; change it freely
+
+    /// Of the last frame with ShadowMethod::Volumes.
+    ShadowVolumeCounts shadowVolumes() const;
 
     /// With timing on, passes() tells what the parts of the last frame took; it costs a glFinish a part.
     void setTiming(bool on);

@@ -211,6 +211,7 @@ std::vector<ProgramCase> programs() {
     out.push_back({"fullscreen.vert.glsl", "prefilter_copy.frag.glsl", {{}}});
     out.push_back({"fullscreen.vert.glsl", "prefilter_halve.frag.glsl", {{}}});
     out.push_back({"fullscreen.vert.glsl", "present.frag.glsl", {{}}});
+    out.push_back({"stencil_volume.vert.glsl", "stencil.frag.glsl", {{}, {{"NACRE_STENCIL_BEYOND_FAR", "1"}}}});
     const std::vector<ShaderDefines> surroundings = environmentChoices();
     out.push_back({"lit.vert.glsl", "environment.frag.glsl", {surroundings.rbegin(), surroundings.rend()}});
     out.push_back({"sky.vert.glsl", "sky.frag.glsl", surroundings});
