@@ -78,6 +78,7 @@ SceneErrors measureScene(SceneRenderer& renderer, const Image& picture, const Sc
     std::vector<SceneParts> parts(2);  // all, and with what meshes block
     parts[1].occlusion = true;
     for (const Approximation& a : list) parts.push_back(a.without);
+    for (SceneParts& part : parts) part.interreflection = shot.interreflection;
     const SceneTruths truths = openTruths(scene, 0, progress);
     SceneTraceOptions options{.width = shot.width, .height = shot.height, .supersample = rays, .time = shot.time};
     options.progress = progress;

@@ -12,8 +12,11 @@
 #include "cli/terminal.hpp"
 #include "cli/verb.hpp"
 #include "core/error.hpp"
+#include "reference/albedo.hpp"
+#include "reference/scene_rays.hpp"
 #include "shading/context.hpp"
 #include "shading/image_output.hpp"
+#include "shading/multipass/radiosity.hpp"
 #include "shading/scene_file.hpp"
 
 namespace nacre::cli {
@@ -72,6 +75,13 @@ ShadowMethod shadowMethod(const std::string& text) {
     throw UsageError(fmt::format("--shadows: expected maps or volumes, found '{}'", text));
 }
 
+SoftShadows softShadows(const std::string& text) {
+    if (text == "regenerated") return SoftShadows::Regenerated;
+    if (text == "pivot") return SoftShadows::Pivot;
+    if (text == "levels") return SoftShadows::Levels;
+    throw UsageError(fmt::format("--soft: expected regenerated, pivot or levels, found '{}'", text));
+}
+
 json volumesJson(const ShadowVolumeCounts& c) {
     return {{"made", c.made},
             {"bytes", c.bytes},
@@ -93,6 +103,21 @@ json toJson(const SceneErrors& e) {
         out["shares"].push_back(
             {{"name", s.name}, {"psnr_off", s.psnrOff}, {"psnr_without", s.psnrWithout}, {"share", s.share}});
     return out;
+}
+
+/// Light between the scene's meshes: albedos of the unbaked BRDFs at 45 degrees, visibility by rays.
+IndirectLight solveRadiosity(const SceneDescription& scene, double time) {
+    std::vector<Rgb> albedos;
+    for (const MaterialTruth& m : openTruths(scene).materials)
+        albedos.push_back(m.brdf ? glm::min(directionalAlbedo(m.brdf, {std::sqrt(0.5), 0, std::sqrt(0.5)}), Rgb(0.99))
+                                 : Rgb(0));
+    const std::vector<glm::dmat4> nodes = nodeTransforms(scene, time);
+    const SceneRays rays(scene, nodes);
+    const Visible visible = [&](const Vec3& a, const Vec3& b) {
+        const double length = glm::length(b - a);
+        return !rays.shadowed(a, (b - a) / length, length);
+    };
+    return sceneIndirectLight(scene, time, albedos, visible);
 }
 
 std::string errorText(const SceneErrors& e) {
@@ -120,6 +145,14 @@ void runRender(const Context& context, const Settings& s) {
     ProgramLoader loader;
     SceneRenderer renderer(loader, std::move(scene));
     renderer.switches = s.switches;
+    json radiosity;
+    if (s.shot.interreflection) {
+        report(progress, "radiosity", 0);
+        const Stopwatch solving;
+        const IndirectLight light = solveRadiosity(renderer.scene(), s.shot.time);
+        renderer.setIndirectLight(light.radiance);
+        radiosity = {{"shots", light.shots}, {"left", light.left}, {"seconds", solving.seconds()}};
+    }
     report(progress, "drawing", 0);
     const Stopwatch watch;
     const Image picture = shoot(renderer, s.shot);
@@ -132,6 +165,7 @@ void runRender(const Context& context, const Settings& s) {
                  {"seconds", seconds},
                  {"programs", renderer.programs().size()},
                  {"renderer", gl.description()}};
+    if (s.shot.interreflection) data["radiosity"] = radiosity;
     if (s.switches.shadowMethod == ShadowMethod::Volumes)
         data["shadow_volumes"] = volumesJson(renderer.shadowVolumes());
     double white = s.white > 0 ? s.white : pictureWhite(picture);
@@ -186,6 +220,14 @@ Verb renderVerb(Context& context) {
         {"--white", "W", "Radiance shown as white in PNG", positiveInto([s](double v) { s->white = v; })},
         {"--shadows", "METHOD", "Of lights that have shadows: maps (default) or volumes, which are hard and exact",
          [s](const std::string& text) { s->switches.shadowMethod = shadowMethod(text); }},
+        {"--light-points", "N", "With volumes: points of a light's area, 1 to 63 (default 16)",
+         integerInto([s](long long v) { s->switches.lightPoints = static_cast<int>(v); }, 1, 63)},
+        {"--soft", "METHOD",
+         "With volumes, of a light's area: regenerated (default), pivot (volumes of its middle swept from each\n"
+         "point) or levels (the middle's light dimmed by the count)",
+         [s](const std::string& text) { s->switches.softShadows = softShadows(text); }},
+        {"--radiosity", "", "Add light that bounced between meshes, as colours of their vertices; in the reference too",
+         into(s->shot.interreflection)},
         {"--reference", "", "Trace the same scene, and print the error", into(s->reference)},
         {"--rays", "N", "Of the reference: N x N rays a pixel (default 4)",
          integerInto([s](long long v) { s->rays = static_cast<int>(v); }, 1, 16)},

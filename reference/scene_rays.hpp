@@ -25,6 +25,8 @@ public:
     /// \param distance  to the light; infinite for directional ones
     bool shadowed(const Vec3& position, const Vec3& direction, double distance) const;
     bool blocked(const Vec3& position, const Vec3& direction) const;
+    /// Past the triangle that a ray starts from: positions are single precision.
+    double skip() const { return 1e-4 * all_.size(); }
 
 private:
     /// Meshes in the world as one, and which node a triangle belongs to.
@@ -39,8 +41,6 @@ private:
         bool casts;
         VolumeField field;
     };
-    /// Past the triangle that a ray starts from: positions are single precision.
-    double skip() const { return 1e-4 * all_.size(); }
     bool insideVolume(const Vec3& position, const Vec3& direction, double distance, bool castersAlone) const;
 
     World world_;

@@ -108,13 +108,13 @@ static void setAddLight() {
 }
 
 void drawMesh(const Program& program, const RenderTarget& target, const GpuMesh& mesh, const glm::dmat4& toWorld,
-              DrawMode mode) {
+              DrawMode mode, const Buffer* radiance) {
     setModel(program, toWorld);
     setDrawState(target);
     if (mode == DrawMode::AddLight) setAddLight();
     glFrontFace(mirrors(toWorld) ? GL_CW : GL_CCW);
     program.use();
-    mesh.draw();
+    mesh.draw(radiance);
     glFrontFace(GL_CCW);
     if (mode == DrawMode::AddLight) setDrawState(target);
     checkGl("drawing a mesh");

@@ -36,9 +36,10 @@ void setDrawState(const RenderTarget& target);
 /// depth stay (MPR section 7.2); the same vertex shader must have drawn it.
 enum class DrawMode { Fill, AddLight };
 
-/// Draws in that state, and leaves it so. Front
+/// Draws in that state, and leaves it so. radiance: of GpuMesh::draw. Front
 /// faces are those seen from outside, mirrored or not; afterwards counter-clockwise ones again.
 void drawMesh(const Program& program, const RenderTarget& target, const GpuMesh& mesh,
-              const glm::dmat4& toWorld = glm::dmat4(1), DrawMode mode = DrawMode::Fill);
+              const glm::dmat4& toWorld = glm::dmat4(1), DrawMode mode = DrawMode::Fill,
+              const Buffer* radiance = nullptr);
 
 }  // namespace nacre

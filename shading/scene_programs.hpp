@@ -23,6 +23,12 @@ enum class SceneReflectance { FactoredOrModel, Direct, FastPhong };
 /// the pixel (shading/multipass/shadow_volume.hpp), of meshes alone; desktop OpenGL.
 enum class ShadowMethod { Maps, Volumes };
 
+/// How volumes soften the shadows of lights with an area, by points of it. Regenerated: each point has its own volumes
+/// and its light is added. Pivot: the volumes of the middle, swept from each point (MPR section 4.4: silhouettes stay);
+/// one volume is stored instead of one a point. Levels: all points' volumes are counted at once, and the light of the
+/// middle is dimmed by the count (PR94's darkness levels): wrong where volumes of one point overlap.
+enum class SoftShadows { Regenerated, Pivot, Levels };
+
 /// The approximations of a picture, each to be switched off by itself.
 struct SceneSwitches {
     SceneReflectance reflectance = SceneReflectance::FactoredOrModel;
@@ -30,11 +36,13 @@ struct SceneSwitches {
     bool ambient = true;
     bool shadows = true;  ///< of lights that have a SceneShadow
     ShadowMethod shadowMethod = ShadowMethod::Maps;
-    bool relief = true;                        ///< bumped normals, and all of a relief's light
-    std::optional<BumpShadow> reliefShadow{};  ///< instead of the materials' own, where the asset has it
-    bool indirect = true;                      ///< bounced light in reliefs
-    bool surrounding = true;                   ///< the environment on surfaces
-    bool sky = true;                           ///< the environment as background
+    SoftShadows softShadows = SoftShadows::Regenerated;  ///< with volumes
+    int lightPoints = 16;                                ///< of an area, 1 to 63
+    bool relief = true;                                  ///< bumped normals, and all of a relief's light
+    std::optional<BumpShadow> reliefShadow{};            ///< instead of the materials' own, where the asset has it
+    bool indirect = true;                                ///< bounced light in reliefs
+    bool surrounding = true;                             ///< the environment on surfaces
+    bool sky = true;                                     ///< the environment as background
 };
 
 /// What of a baked asset decides about programs.

@@ -8,6 +8,7 @@
 #include <glm/gtc/matrix_transform.hpp>
 
 #include "core/error.hpp"
+#include "core/light_area.hpp"
 #include "factorize/models/models.hpp"
 #include "shading/context.hpp"
 #include "shading/environment_pass.hpp"
@@ -150,6 +151,7 @@ struct SceneRenderer::State {
     std::map<std::size_t, NodeLight> nodeLights;       ///< of nodes whose relief has indirect light
     std::vector<LightShadow> lightShadows;             ///< one a light
     std::optional<SceneShadowVolumes> shadowVolumes;   ///< with ShadowMethod::Volumes
+    std::map<std::size_t, Buffer> nodeRadiance;        ///< a vertex, of nodes that have it
     PassClock clock;
     bool timing = false;
 
@@ -366,7 +368,10 @@ struct SceneRenderer::State {
         for (const Draw& draw : draws) {
             const SceneMaterial& m = materialOf(draw.node);
             const bool shadowed = scene.nodes[draw.node].receivesShadow;
-            const SceneProgram wanted = materialProgram(scene, m, traits, on, shadowed ? defines : ShaderDefines());
+            SceneProgram wanted = materialProgram(scene, m, traits, on, shadowed ? defines : ShaderDefines());
+            const auto radiance = nodeRadiance.find(draw.node);
+            const bool brings = on.ambient && radiance != nodeRadiance.end() && wanted.fragment == "scene.frag.glsl";
+            if (brings) wanted.defines.emplace_back("NACRE_VERTEX_RADIANCE", "1");
             const Program& next = loader.load(wanted.vertex, wanted.fragment, wanted.defines);
             const bool own = nodeLights.count(draw.node) != 0;  // its texture is the node's, not the material's
             if (&next != program || material != scene.nodes[draw.node].material || own) {
@@ -377,7 +382,8 @@ struct SceneRenderer::State {
                 program = &next;
                 material = own ? -1 : scene.nodes[draw.node].material;
             }
-            drawMesh(next, target, *meshOf(draw.node)->gpu, nodes[draw.node], mode);
+            drawMesh(next, target, *meshOf(draw.node)->gpu, nodes[draw.node], mode,
+                     brings ? &radiance->second : nullptr);
         }
     }
 
@@ -403,48 +409,109 @@ struct SceneRenderer::State {
         }
     }
 
-    /// Light of lamps with a SceneShadow, each added where its volumes' count is zero (MPR section 7.2).
-    void addShadowedLight(const RenderTarget& target, const Camera& camera, SceneSwitches on,
-                          const std::vector<glm::dmat4>& nodes, const std::vector<Light>& lights) {
-        const ShadowSight sight = ShadowSight::of(camera, static_cast<double>(target.width()) / target.height());
-        on.ambient = on.surrounding = false;
-        ShadowStencil stencil(loader);
+    /// A lamp with a SceneShadow, as points that cast hard shadows.
+    struct ShadowedLamp {
+        std::size_t light = 0;
+        std::vector<Light> points;
+        std::size_t volumes = 0;  ///< number of the first point's in shadowVolumes
+        bool stored = true;       ///< each point has its own
+    };
+    std::vector<ShadowedLamp> shadowedLamps(const SceneSwitches& on, const std::vector<glm::dmat4>& nodes,
+                                            const std::vector<Light>& lights, std::vector<Vec4>& sources) const {
+        const std::vector<std::optional<LightArea>> areas = areasInWorld(scene, nodes);
+        std::vector<ShadowedLamp> out;
         for (std::size_t i = 0; i < lights.size(); ++i) {
             if (!scene.lights[i].shadow) continue;
-            std::vector<Light> alone = lights;
-            for (std::size_t k = 0; k < alone.size(); ++k)
-                if (k != i) alone[k].color = Rgb(0);
-            stencil.begin(target);
-            stencil.lit();
-            drawNodes(target, camera, on, nodes, alone, DrawMode::AddLight, false);
-            stencil.count(target, shadowVolumes->of(i), homogeneous(lights[i]), sight);
-            stencil.lit();
-            drawNodes(target, camera, on, nodes, alone, DrawMode::AddLight, true);
-            stencil.end(target);
+            ShadowedLamp lamp{i, {lights[i]}, sources.size(), on.softShadows != SoftShadows::Pivot};
+            if (areas[i]) lamp.points = pointsOfArea(lights[i], *areas[i], on.lightPoints);
+            for (const Light& point : lamp.points)
+                if (lamp.stored || sources.size() == lamp.volumes) sources.push_back(homogeneous(point));
+            out.push_back(std::move(lamp));
         }
+        return out;
+    }
+
+    /// One frame's target, view and places, for the passes that add light.
+    struct LightPasses {
+        const RenderTarget& target;
+        const Camera& camera;
+        SceneSwitches on;
+        const std::vector<glm::dmat4>& nodes;
+        const std::vector<Light>& lights;
+        ShadowSight sight;
+    };
+
+    /// Light `light` as `value`, no other, where the stencil lets it.
+    void addLight(const LightPasses& f, std::size_t light, const Light& value, bool receivers) {
+        std::vector<Light> alone = f.lights;
+        for (Light& other : alone) other.color = Rgb(0);
+        alone[light] = value;
+        drawNodes(f.target, f.camera, f.on, f.nodes, alone, DrawMode::AddLight, receivers);
+    }
+
+    /// Each point's light, added where the count of its volumes is zero (MPR section 7.2).
+    void addPoints(const LightPasses& f, ShadowStencil& stencil, const ShadowedLamp& lamp) {
+        for (std::size_t k = 0; k < lamp.points.size(); ++k) {
+            const Light& point = lamp.points[k];
+            stencil.begin(f.target);
+            stencil.lit();
+            addLight(f, lamp.light, point, false);
+            stencil.count(f.target, shadowVolumes->of(lamp.volumes + (lamp.stored ? k : 0)), homogeneous(point),
+                          f.sight);
+            stencil.lit();
+            addLight(f, lamp.light, point, true);
+            stencil.end(f.target);
+        }
+    }
+
+    /// The middle's light, dimmed by how many points' volumes contain a pixel (PR94 "Soft shadows").
+    void addLevels(const LightPasses& f, ShadowStencil& stencil, const ShadowedLamp& lamp) {
+        stencil.begin(f.target);
+        stencil.lit();
+        addLight(f, lamp.light, f.lights[lamp.light], false);
+        for (std::size_t k = 0; k < lamp.points.size(); ++k)
+            stencil.count(f.target, shadowVolumes->of(lamp.volumes + k), homogeneous(lamp.points[k]), f.sight,
+                          ShadowCounting::Auto, true);
+        const std::size_t count = lamp.points.size();
+        for (std::size_t level = 0; level < count; ++level) {
+            Light dimmed = f.lights[lamp.light];
+            dimmed.color *= static_cast<double>(count - level) / static_cast<double>(count);
+            stencil.lit(static_cast<unsigned>(level));
+            addLight(f, lamp.light, dimmed, true);
+        }
+        stencil.end(f.target);
     }
 
     /// Everything but light of lamps with a SceneShadow; then that. \throws nacre::Error for nodes with volumes
     void drawWithShadowVolumes(const RenderTarget& target, const Camera& camera, const SceneSwitches& on,
                                const std::vector<glm::dmat4>& nodes, const std::vector<Light>& lights) {
+        require(on.lightPoints >= 1 && on.lightPoints <= 63, "scene: expected 1 to 63 points of a light's area");
         for (const SceneNode& node : scene.nodes)
             if (node.volume >= 0)
                 throw Error(
                     fmt::format("shadow volumes: expected meshes alone, found a volume at node '{}'", node.name));
+        std::vector<Vec4> sources;
+        const std::vector<ShadowedLamp> lamps = shadowedLamps(on, nodes, lights, sources);
         clock("shadow volumes", [&] {
             if (!shadowVolumes) shadowVolumes.emplace(scene);
-            shadowVolumes->update(nodes, lights);
+            shadowVolumes->update(nodes, sources);
         });
         std::vector<Light> unshadowed = lights;
+        for (const ShadowedLamp& lamp : lamps) unshadowed[lamp.light].color = Rgb(0);
         SceneSwitches rest = on;
-        rest.lamps = false;
-        for (std::size_t i = 0; i < lights.size(); ++i)
-            if (scene.lights[i].shadow)
-                unshadowed[i].color = Rgb(0);
-            else
-                rest.lamps = true;
+        rest.lamps = lamps.size() < lights.size();
         clock("surfaces", [&] { drawNodes(target, camera, rest, nodes, unshadowed); });
-        clock("light", [&] { addShadowedLight(target, camera, on, nodes, lights); });
+        clock("light", [&] {
+            LightPasses frame{target, camera, on, nodes, lights, {}};
+            frame.on.ambient = frame.on.surrounding = false;
+            frame.sight = ShadowSight::of(camera, static_cast<double>(target.width()) / target.height());
+            ShadowStencil stencil(loader);
+            for (const ShadowedLamp& lamp : lamps)
+                if (on.softShadows == SoftShadows::Levels && lamp.points.size() > 1)
+                    addLevels(frame, stencil, lamp);
+                else
+                    addPoints(frame, stencil, lamp);
+        });
     }
 
     void render(const RenderTarget& target, const Camera& camera, double time, const SceneSwitches& on) {
@@ -482,6 +549,26 @@ struct SceneRenderer::State {
         prepareModels();
     }
 
+    void setIndirectLight(const std::vector<std::vector<glm::vec3>>& radiance) {
+        require(radiance.size() == scene.nodes.size(), "scene: expected a list of radiance for each node");
+        for (std::size_t i = 0; i < radiance.size(); ++i) {
+            const int mesh = scene.nodes[i].mesh;
+            const std::size_t vertices =
+                mesh < 0 ? 0 : scene.meshes[static_cast<std::size_t>(mesh)].mesh.positions.size();
+            require(radiance[i].empty() || radiance[i].size() == vertices,
+                    fmt::format("scene: expected {} vertices' radiance at node {}, found {}", vertices, i,
+                                radiance[i].size()));
+        }
+        nodeRadiance.clear();
+        for (std::size_t i = 0; i < radiance.size(); ++i) {
+            if (radiance[i].empty()) continue;
+            glBindBuffer(GL_ARRAY_BUFFER, nodeRadiance[i].name());
+            glBufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(radiance[i].size() * sizeof(glm::vec3)),
+                         radiance[i].data(), GL_STATIC_DRAW);
+        }
+        glBindBuffer(GL_ARRAY_BUFFER, 0);
+    }
+
     void setScene(SceneDescription&& next) {
         SceneAssets nextAssets = assets;
         nextAssets.open(next.assets);
@@ -514,6 +601,7 @@ struct SceneRenderer::State {
         nodeLights.clear();
         lightShadows.clear();
         shadowVolumes.reset();
+        nodeRadiance.clear();
         prepareModels();
     }
 };
@@ -560,6 +648,10 @@ void SceneRenderer::setNodeMaterial(std::size_t node, int material) {
 }
 void SceneRenderer::setSky(const SceneSky& value) { state_->edit(state_->scene.sky, value); }
 void SceneRenderer::setScene(SceneDescription scene) { state_->setScene(std::move(scene)); }
+
+void SceneRenderer::setIndirectLight(const std::vector<std::vector<glm::vec3>>& radiance) {
+    state_->setIndirectLight(radiance);
+}
 
 std::vector<AssetChange> SceneRenderer::reloadAssets() {
     std::vector<AssetChange> changes =

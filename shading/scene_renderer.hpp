@@ -64,6 +64,11 @@ public:
     /// too.
     std::vector<AssetChange> reloadAssets();
 
+    /// Radiance that leaves nodes' vertices on its own, drawn with the ambient light (MPR section 6): one list a node,
+    /// empty or a value for each vertex of its mesh. Until the next setScene.
+    /// \throws std::invalid_argument for other lengths
+    void setIndirectLight(const std::vector<std::vector<glm::vec3>>& radiance);
+
     /// Programs of the scene under the present switches.
     std::vector<ListedProgram> programs() const;
 

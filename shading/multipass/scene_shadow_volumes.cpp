@@ -21,11 +21,12 @@ void SceneShadowVolumes::store(Stored& stored, const Object& object, const glm::
     if (!volume.indices.empty()) stored.volume.emplace(*object.points, volume);
 }
 
-void SceneShadowVolumes::update(const std::vector<glm::dmat4>& nodes, const std::vector<Light>& lights) {
+void SceneShadowVolumes::update(const std::vector<glm::dmat4>& nodes, std::span<const Vec4> lights) {
     counts_ = {};
+    stored_.erase(stored_.lower_bound({lights.size(), 0}), stored_.end());
     for (std::size_t l = 0; l < lights.size(); ++l)
         for (std::size_t n = 0; n < nodes.size(); ++n) {
-            const bool casts = scene_->lights[l].shadow && scene_->nodes[n].mesh >= 0 && scene_->nodes[n].castsShadow;
+            const bool casts = scene_->nodes[n].mesh >= 0 && scene_->nodes[n].castsShadow;
             if (!casts) {
                 stored_.erase({l, n});
                 continue;
@@ -34,9 +35,8 @@ void SceneShadowVolumes::update(const std::vector<glm::dmat4>& nodes, const std:
             const Object& object =
                 objects_.try_emplace(mesh, scene_->meshes[static_cast<std::size_t>(mesh)].mesh).first->second;
             const auto [at, fresh] = stored_.try_emplace({l, n});
-            const Vec4 light = homogeneous(lights[l]);
-            const bool same = !fresh && at->second.toWorld == nodes[n] && at->second.light == light;
-            if (!same) store(at->second, object, nodes[n], light);
+            const bool same = !fresh && at->second.toWorld == nodes[n] && at->second.light == lights[l];
+            if (!same) store(at->second, object, nodes[n], lights[l]);
             ++(same ? counts_.kept : counts_.made);
             if (at->second.volume) counts_.bytes += at->second.volume->bytes();
             counts_.bytesAPolygon += at->second.bytesAPolygon;

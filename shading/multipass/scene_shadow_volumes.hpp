@@ -15,16 +15,15 @@ struct ShadowVolumeCounts {
     std::size_t bytesAPolygon = 0;  ///< what volumes would take with one for each polygon
 };
 
-/// A context must be current for all calls. Objects are nodes with a mesh that cast shadows; lights those with a
-/// SceneShadow.
+/// A context must be current for all calls. Objects are nodes with a mesh that cast shadows.
 class SceneShadowVolumes {
 public:
     /// \param scene  outlives this; its meshes don't change
     explicit SceneShadowVolumes(const SceneDescription& scene) : scene_(&scene) {}
 
-    /// \param nodes, lights  nodeTransforms' and lightsInWorld's results
-    void update(const std::vector<glm::dmat4>& nodes, const std::vector<Light>& lights);
-    /// Of one light, as they stand since update().
+    /// \param nodes  nodeTransforms' result \param lights  homogeneous, in the world
+    void update(const std::vector<glm::dmat4>& nodes, std::span<const Vec4> lights);
+    /// Of one of the lights, as they stand since update().
     std::vector<PlacedShadowVolume> of(std::size_t light) const;
     const ShadowVolumeCounts& counts() const { return counts_; }
 

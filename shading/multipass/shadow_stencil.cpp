@@ -11,7 +11,10 @@
 namespace nacre {
 namespace {
 
-constexpr GLuint kAll = kStencilValues - 1;
+constexpr StencilCounter kCounter;
+constexpr GLuint kAll = kCounter.range() - 1, kShadowMin = kCounter.shadowMin(), kShadowZero = kCounter.shadowZero();
+constexpr GLuint kCounts =
+    kShadowMin - 1;  ///< mask of the bits that count; the highest count that isn't taken for none
 
 const void* offset(std::size_t indices) { return reinterpret_cast<const void*>(indices * sizeof(std::uint32_t)); }
 
@@ -104,28 +107,34 @@ void ShadowStencil::everywhere(unsigned reference, unsigned mask, unsigned op, u
     glEnable(GL_DEPTH_TEST);
 }
 
-void ShadowStencil::begin(const RenderTarget& target) {
+void ShadowStencil::begin(const RenderTarget& target, int level) {
+    require(level >= 0 && level <= kCounter.deepest(), "shadow volumes: a view's level must be below SHAD_MIN");
     setDrawState(target);
     glDepthMask(GL_FALSE);
     glColorMask(GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
     glEnable(GL_STENCIL_TEST);
-    static_assert((~kRenderArea & kShadowZero) == kShadowZero);
-    everywhere(kRenderArea, kAll, GL_INVERT, kShadowZero);
+    level_ = static_cast<unsigned>(level);
+    everywhere(level_, kAll, GL_INVERT, kShadowZero);
     layers_ = 0;
     settled_ = zPasses_ = zFails_ = 0;
 }
 
+/// What a count has in the stencil: SHAD_ZERO and what is added, modulo 128 below SHAD_MIN's bit.
+unsigned ShadowStencil::valueOf(unsigned count) const {
+    return kShadowMin | (((level_ ^ kShadowZero) + count) & kCounts);
+}
+
 void ShadowStencil::count(const RenderTarget& target, std::span<const PlacedShadowVolume> volumes, const Vec4& light,
-                          const ShadowSight& sight, ShadowCounting counting) {
+                          const ShadowSight& sight, ShadowCounting counting, bool levels) {
     target.bind();
     glColorMask(GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
     glDepthMask(GL_FALSE);
     for (const PlacedShadowVolume& placed : volumes) {
-        if (layers_ > 0 && layers_ + placed.mostLayers > kShadowCounts) settle(target);
+        if (!levels && level_ == 0 && layers_ > 0 && layers_ + placed.mostLayers > kCounts) settle(target);
         layers_ += placed.mostLayers;
         place(volume_, placed, light, sight);
         glStencilFunc(GL_EQUAL, static_cast<GLint>(kShadowMin), kShadowMin);
-        glStencilMask(kShadowCounts);
+        glStencilMask(kCounts);
         const bool pass = counting == ShadowCounting::Auto
                               ? !sight.window.empty() && windowIsLit(sight.window, placed.box, light)
                               : counting == ShadowCounting::ZPass;
@@ -176,7 +185,7 @@ void ShadowStencil::drawZFail(const PlacedShadowVolume& placed, const Vec4& ligh
     glDisable(GL_DEPTH_CLAMP);
 }
 
-/// A finished count isn't negative: 192 + 1 … 255, or 128 … 191 from 64 on. Those pixels become kRenderArea.
+/// A finished count isn't negative: 192 + 1 … 255, or 128 … 191 from 64 on. Those pixels get level 0 back.
 void ShadowStencil::settle(const RenderTarget& target) {
     target.bind();
     glDisable(GL_DEPTH_TEST);
@@ -190,18 +199,24 @@ void ShadowStencil::settle(const RenderTarget& target) {
     ++settled_;
 }
 
-void ShadowStencil::lit() {
+void ShadowStencil::lit(unsigned count) {
+    require(count == 0 || level_ == 0, "shadow volumes: other counts than zero are for the camera's own view");
     glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
-    glStencilFunc(GL_EQUAL, static_cast<GLint>(kShadowZero), kAll);
-    glStencilOp(GL_KEEP, GL_KEEP, GL_ZERO);
-    glStencilMask(kAll);
+    glStencilFunc(GL_EQUAL, static_cast<GLint>(valueOf(count)), kAll);
+    glStencilOp(GL_KEEP, GL_KEEP, count == 0 ? GL_INVERT : GL_ZERO);
+    glStencilMask(count == 0 ? kShadowZero : kAll);
 }
 
 void ShadowStencil::end(const RenderTarget& target) {
     target.bind();
     glColorMask(GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
-    everywhere(kShadowMin, kShadowMin, GL_ZERO, kAll);
+    glDisable(GL_DEPTH_TEST);
+    glStencilFunc(GL_NOTEQUAL, static_cast<GLint>(level_), kShadowMin);  // every pixel of the count
+    glStencilOp(GL_KEEP, GL_KEEP, GL_REPLACE);
     glStencilMask(kAll);
+    fill_.use();
+    drawFullscreen(empty_);
+    glEnable(GL_DEPTH_TEST);
     glDisable(GL_STENCIL_TEST);
     glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
     glDepthMask(GL_TRUE);

@@ -61,24 +61,25 @@ enum class ShadowCounting { Auto, ZFail, ZPass };
 
 /// Counts one light's volumes in the stencil of a target whose depth buffer holds the view:
 /// begin, volumes, what is drawn under lit() — pixels that no volume contains —, end.
-/// Between begin and end the render area's pixels have the bit kShadowMin. Counts are modulo 128 in the bits below, so
-/// that the order of volumes and faces doesn't matter.
+/// Between begin and end the view's pixels have SHAD_MIN's bit (stencil_counter.hpp), and counts are modulo 128 in the
+/// bits below, so that the order of volumes and faces doesn't matter.
 /// Needs desktop OpenGL (depth clamp). \throws nacre::Error on OpenGL ES
 class ShadowStencil {
 public:
     explicit ShadowStencil(ProgramLoader& loader);
 
-    /// kRenderArea becomes kShadowZero.
-    void begin(const RenderTarget& target);
+    /// Pixels of the view become SHAD_ZERO. \param level  the value that they have: of the view's recursion
+    void begin(const RenderTarget& target, int level = 0);
     /// Volumes whose layers might pass 127 together are settled in between: pixels in shadow leave the count for good.
-    /// Of one object alone 128 layers, one behind the other along a ray, would be missed.
+    /// Of one object alone, and in views of a level above 0, 128 layers one behind the other along a ray, no fewer and
+    /// no more, would be missed. With `levels` nothing is settled: counts of several lights add up, to 63 at most.
     /// \param light  homogeneous, in the world
     void count(const RenderTarget& target, std::span<const PlacedShadowVolume> volumes, const Vec4& light,
-               const ShadowSight& sight, ShadowCounting counting = ShadowCounting::Auto);
-    /// Draws from here on pass where the count is zero, once a pixel: it then belongs to kRenderArea again. With
-    /// `shadowed`, too where it isn't. Colours and depth are written again.
-    void lit();
-    /// Every pixel of the count is kRenderArea again; stencil test off.
+               const ShadowSight& sight, ShadowCounting counting = ShadowCounting::Auto, bool levels = false);
+    /// Draws from here on pass where the count is `count`, once a pixel, which then has its level again. Colours and
+    /// depth are written again. \throws std::invalid_argument for a count in views of a level above 0
+    void lit(unsigned count = 0);
+    /// Every pixel of the count has its level again; stencil test off.
     void end(const RenderTarget& target);
 
     int settled() const { return settled_; }  ///< since begin
@@ -86,6 +87,7 @@ public:
     int zFails() const { return zFails_; }
 
 private:
+    unsigned valueOf(unsigned count) const;
     void settle(const RenderTarget& target);
     void everywhere(unsigned reference, unsigned mask, unsigned op, unsigned writes) const;
     void drawZPass(const PlacedShadowVolume& placed, bool mirrored) const;
@@ -94,6 +96,7 @@ private:
     const Program& volume_;
     const Program& beyondFar_;  ///< what is there alone
     VertexArray empty_;
+    unsigned level_ = 0;
     std::size_t layers_ = 0;
     int settled_ = 0, zPasses_ = 0, zFails_ = 0;
 };

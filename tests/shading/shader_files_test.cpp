@@ -232,6 +232,7 @@ std::vector<ProgramCase> programs() {
         volumes.push_back(combined(combined({brdfs.front()}, {lamps}), {shadow}).front());
     out.push_back({"volume.vert.glsl", "volume.frag.glsl", combined(volumes, {{}, {{"NACRE_VOLUME_MARCH", "1"}}})});
     std::vector<ShaderDefines> scenes = combined({everything}, bumpChoices());
+    scenes.push_back({{"NACRE_VERTEX_RADIANCE", "1"}});
     scenes.push_back({});
     scenes.push_back(combined({brdfs.front()}, {lamps}).front());
     scenes.push_back(combined({surroundings.back()}, {surrounding}).front());

@@ -105,5 +105,79 @@ TEST_F(SceneShadowVolumesTest, DuplicatedNodesAreLitOnce) {
     EXPECT_LT(relative(draw(scene), once), 1e-6);
 }
 
+/// A ball above a floor, under a lamp with an area.
+SceneDescription softScene(double size) {
+    SceneDescription scene;
+    scene.meshes = {{"floor", makeQuad(6, 2)}, {"ball", makeSphere(0.5f, 48, 24)}};
+    SceneMaterial matt;
+    matt.model = "lambert:kd=0.7";
+    scene.materials = {matt};
+    scene.nodes.resize(2);
+    for (std::size_t i = 0; i < 2; ++i) scene.nodes[i].mesh = static_cast<int>(i), scene.nodes[i].material = 0;
+    scene.nodes[0].rotation = glm::angleAxis(-kPi / 2, Vec3(1, 0, 0));
+    scene.nodes[1].translation = {0, 0.9, 0};
+    SceneLight lamp;
+    lamp.light = {false, {0.6, 3, 0.5}, Rgb(20), {}};
+    lamp.shadow = SceneShadow{};
+    lamp.area = LightArea{{size, 0, 0}, {0, 0, size}};
+    scene.lights = {lamp};
+    scene.camera.eye = {0.5, 2.2, 4};
+    scene.camera.target = {0, 0.3, 0};
+    return scene;
+}
+
+Image traced(const SceneDescription& scene) {
+    const SceneTruths truths = openTruths(scene, 0, {});
+    SceneTraceOptions options{.width = kWidth, .height = kHeight, .supersample = 1};
+    options.lightPoints = 256;
+    return traceScene(scene, scene.camera, truths, {SceneParts()}, options).front();
+}
+
+TEST_F(SceneShadowVolumesTest, SoftShadowsNearTheTruthWithTheirPoints) {
+    const SceneDescription scene = softScene(0.25);
+    const Image truth = traced(scene);
+    SceneRenderer renderer(loader_, scene);
+    double last = 1;
+    for (const int points : {1, 4, 16, 63}) {
+        renderer.switches.lightPoints = points;
+        const double error = relative(draw(renderer, ShadowMethod::Volumes), truth);
+        EXPECT_LT(error, 0.8 * last) << points;
+        last = error;
+    }
+    EXPECT_LT(last, 0.02);
+}
+
+TEST_F(SceneShadowVolumesTest, PivotTakesOneVolumeAndErrsWithTheLightsSize) {
+    double small = 0;
+    for (const double size : {0.05, 0.4}) {
+        SceneRenderer renderer(loader_, softScene(size));
+        const Image regenerated = draw(renderer, ShadowMethod::Volumes);
+        const ShadowVolumeCounts each = renderer.shadowVolumes();
+        EXPECT_EQ(each.made, 32);
+        renderer.switches.softShadows = SoftShadows::Pivot;
+        const Image pivot = draw(renderer, ShadowMethod::Volumes);
+        const ShadowVolumeCounts one = renderer.shadowVolumes();
+        EXPECT_EQ(one.made + one.kept, 2);
+        EXPECT_LT(10 * one.bytes, each.bytes);
+        const double error = relative(pivot, regenerated);
+        EXPECT_GT(error, small);
+        EXPECT_LT(error, 0.1);
+        small = error;
+    }
+}
+
+TEST_F(SceneShadowVolumesTest, LevelsDarkenLikeSumsWhereVolumesDontOverlap) {
+    SceneRenderer renderer(loader_, softScene(0.1));
+    const Image sum = draw(renderer, ShadowMethod::Volumes);
+    renderer.switches.softShadows = SoftShadows::Levels;
+    EXPECT_LT(relative(draw(renderer, ShadowMethod::Volumes), sum), 0.02);
+}
+
+TEST_F(SceneShadowVolumesTest, RejectsTooManyPoints) {
+    SceneRenderer renderer(loader_, softScene(0.1));
+    renderer.switches.lightPoints = 64;
+    EXPECT_THROW(draw(renderer, ShadowMethod::Volumes), std::invalid_argument);
+}
+
 }  // namespace
 }  // namespace nacre

@@ -1,6 +1,7 @@
 // Hard shadows by volumes against rays, pixel for pixel.
 #include "shading/multipass/shadow_stencil.hpp"
 
+#include <epoxy/gl.h>
 #include <gtest/gtest.h>
 
 #include <cstdlib>
@@ -10,7 +11,6 @@
 #include "core/scene_description.hpp"
 #include "reference/shadow_error.hpp"
 #include "shading/image_output.hpp"
-#include "shading/multipass/stencil_counter.hpp"
 #include "shading/pass_state.hpp"
 #include "shading/primitives.hpp"
 #include "shadow_meshes.hpp"
@@ -42,7 +42,7 @@ struct Drawn {
 
 /// \param mirror  its own inverse: the objects are seen in it, with the volumes they have outside of it
 Drawn draw(const Scenery& scenery, ShadowCounting counting = ShadowCounting::Auto, int samples = 1,
-           const glm::dmat4& mirror = glm::dmat4(1)) {
+           const glm::dmat4& mirror = glm::dmat4(1), int level = 0) {
     ProgramLoader loader;
     const RenderTarget target({.width = kWidth, .height = kHeight, .samples = samples});
     const Vec4 light = homogeneous(scenery.light);
@@ -72,12 +72,26 @@ Drawn draw(const Scenery& scenery, ShadowCounting counting = ShadowCounting::Aut
     };
     target.clear();
     drawAll(DrawMode::Fill);
+    if (level > 0) {  // the view is the left half
+        glEnable(GL_SCISSOR_TEST);
+        glScissor(0, 0, kWidth / 2, kHeight);
+        glClearStencil(level);
+        glClear(GL_STENCIL_BUFFER_BIT);
+        glDisable(GL_SCISSOR_TEST);
+    }
     ShadowStencil stencil(loader);
-    stencil.begin(target);
+    stencil.begin(target, level);
     stencil.count(target, placed, light, sight, counting);
     stencil.lit();
     drawAll(DrawMode::AddLight);
     stencil.end(target);
+    std::vector<unsigned char> levels(std::size_t{kWidth} * kHeight);
+    if (samples == 1) {
+        glPixelStorei(GL_PACK_ALIGNMENT, 1);
+        glReadPixels(0, 0, kWidth, kHeight, GL_STENCIL_INDEX, GL_UNSIGNED_BYTE, levels.data());
+        for (std::size_t i = 0; i < levels.size(); ++i)
+            if (levels[i] != (i % kWidth < kWidth / 2 ? level : 0)) ADD_FAILURE() << "a stencil value is left: " << i;
+    }
     return {target.read(1), stencil.settled(), stencil.zPasses(), stencil.zFails()};
 }
 
@@ -313,6 +327,20 @@ TEST_F(ShadowStencils, MirrorsImageOfAStoredVolume) {
         for (const ShadowCounting counting : {ShadowCounting::Auto, ShadowCounting::ZFail})
             EXPECT_EQ(judge(image, draw(scenery, counting, 1, mirror).mask).wrong, 0) << m.name;
     }
+}
+
+TEST_F(ShadowStencils, ViewsOfALevelCountTheirOwnPixels) {
+    const Scenery scenery = overFloor(makeTorus(0.8f, 0.3f, 24, 12));
+    const Image all = draw(scenery).mask;
+    for (const int level : {1, 63, 64, 127}) {
+        const Image half = draw(scenery, ShadowCounting::Auto, 1, glm::dmat4(1), level).mask;
+        for (int y = 0; y < kHeight; ++y)
+            for (int x = 0; x < kWidth; ++x)
+                ASSERT_EQ(half.at(x, y, 0), x < kWidth / 2 ? all.at(x, y, 0) : std::min(all.at(x, y, 0), 1.0f))
+                    << level;
+    }
+    ProgramLoader loader;
+    EXPECT_THROW(ShadowStencil(loader).begin(RenderTarget({.width = 8, .height = 8}), 128), std::invalid_argument);
 }
 
 }  // namespace
