@@ -290,11 +290,10 @@ std::vector<Option> options(const std::shared_ptr<Settings>& s) {
              integerInto([s](long long v) { s->plan.options.order = static_cast<int>(v); }, 0, kMaxTransferOrder))},
         {"--rings", "R", "The mesh itself blocks within so many rings of triangles, 1 or 2 (default 1; with --lut 2)",
          integerInto([s](long long v) { s->rings = static_cast<int>(v); }, 1, 2)},
-        {"--coarse", "N", "Triangles of the coarsest level of detail (default 400); 0: the mesh itself everywhere",
+        {"--coarse", "N", "Triangles of the coarsest level of detail, about (default 150); 0: the mesh itself everywhere",
          integerInto([s](long long v) { s->plan.options.coarse = static_cast<std::size_t>(v); }, 0, 1 << 30)},
         {"--lod-angle", "RAD",
-         "A level is used where it is off by less, seen from the vertex: 0.2 (default) is 1 to 1.5 % off, 0.5 about 3 "
-         "%",
+         "A level is used where it is off by less, seen from the vertex (default 0.25: 1 to 2 % error; 0.6: about 3 %)",
          own("--lod-angle", positiveInto([s](double v) { s->plan.options.lodAngle = v; }))},
         {"--lut", "L",
          "HEMI's method as printed, to compare with, with a table of 6 L x L planes, to 512 (the paper's: 128); 0: "

@@ -3,6 +3,7 @@
 #include <meshoptimizer.h>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include "core/parallel.hpp"
@@ -18,6 +19,14 @@ std::vector<glm::uvec3> simplified(std::span<const glm::uvec3> triangles, std::s
     std::vector<glm::uvec3> out;
     for (std::size_t i = 0; i + 2 < left; i += 3) out.emplace_back(indices[i], indices[i + 1], indices[i + 2]);
     return out;
+}
+
+/// Adds the triangles of those connected parts that have none left.
+void keepParts(std::vector<glm::uvec3>& triangles, const std::vector<glm::uvec3>& finer, std::span<const std::uint32_t> parts) {
+    std::vector<std::uint8_t> left(parts.size(), 0);
+    for (const glm::uvec3& t : triangles) left[parts[t.x]] = 1;
+    for (const glm::uvec3& t : finer)
+        if (!left[parts[t.x]]) triangles.push_back(t);
 }
 
 struct NearPoint {
@@ -51,12 +60,16 @@ NearPoint nearestOn(const glm::dvec3& p, const glm::dvec3& a, const glm::dvec3& 
     return sum > 0 ? at(vb / sum, vc / sum) : at(0, 0);
 }
 
-/// For each vertex the level's triangle nearest to it among those that face its way, else the nearest of all.
+/// For each vertex the level's triangle nearest to it among those of its connected part that face its way, else the
+/// nearest of the part.
 struct Standing {
     std::vector<std::uint32_t> triangle;
     std::vector<glm::dvec3> weights;
 };
-Standing standing(const std::vector<glm::uvec3>& triangles, std::span<const glm::vec3> rest, std::span<const glm::vec3> normals) {
+Standing standing(const std::vector<glm::uvec3>& triangles, std::span<const glm::vec3> rest, std::span<const glm::vec3> normals,
+                  std::span<const std::uint32_t> parts) {
+    std::vector<std::vector<std::uint32_t>> ofPart(rest.size());
+    for (std::uint32_t t = 0; t < triangles.size(); ++t) ofPart[parts[triangles[t].x]].push_back(t);
     struct Ball {
         glm::dvec3 centre, normal;
         double radius;
@@ -73,7 +86,7 @@ Standing standing(const std::vector<glm::uvec3>& triangles, std::span<const glm:
         double best[2] = {std::numeric_limits<double>::max(), std::numeric_limits<double>::max()};
         std::uint32_t triangle[2] = {0, 0};
         glm::dvec3 weights[2] = {glm::dvec3(1, 0, 0), glm::dvec3(1, 0, 0)};
-        for (std::uint32_t t = 0; t < triangles.size(); ++t) {
+        for (const std::uint32_t t : ofPart[parts[v]]) {
             const int other = glm::dot(balls[t].normal, n) > 0 ? 0 : 1;
             const double away = glm::distance(p, balls[t].centre) - balls[t].radius;
             if (away > 0 && away * away >= best[other]) continue;
@@ -119,10 +132,43 @@ std::vector<float> fittedPush(const std::vector<glm::uvec3>& triangles, const St
     return out;
 }
 
-BlockerLevels::Level levelOf(std::vector<glm::uvec3> triangles, std::span<const glm::vec3> rest, std::span<const glm::vec3> normals) {
-    const Standing stands = standing(triangles, rest, normals);
+BlockerLevels::Level levelOf(std::vector<glm::uvec3> triangles, std::span<const glm::vec3> rest, std::span<const glm::vec3> normals,
+                             std::span<const std::uint32_t> parts) {
+    const Standing stands = standing(triangles, rest, normals, parts);
     std::vector<float> push = fittedPush(triangles, stands, rest);
-    return {std::move(triangles), std::move(push), stands.triangle};
+    return {std::move(triangles), std::move(push), stands.triangle, {}};
+}
+
+/// How far each patch's surfaces at a level and in the mesh are from each other at rest, either way [of the extent].
+/// Triangles are measured at their corners, middles of edges and centre, against the mesh where it belongs to the
+/// patches of their corners.
+std::vector<float> restErrors(const BlockerLevels& levels, std::size_t l, std::span<const glm::vec3> rest, float extent) {
+    const BlockerLevels::Level &level = levels.levels[l], &mesh = levels.levels[0];
+    const std::vector<glm::vec3> at = pushedPositions(level, cornersOfVertices(level.triangles, rest.size()), rest, extent);
+    const auto away = [](const glm::dvec3& x, const glm::uvec3& t, std::span<const glm::vec3> p) {
+        return nearestOn(x, p[t.x], p[t.y], p[t.z]).distanceSquared;
+    };
+    std::vector<double> ofTriangle(level.triangles.size());
+    parallelFor(ofTriangle.size(), 0, [&](std::size_t i) {
+        const glm::uvec3& t = level.triangles[i];
+        const glm::dvec3 a = at[t.x], b = at[t.y], c = at[t.z];
+        for (const glm::dvec3& x : {a, b, c, 0.5 * (a + b), 0.5 * (b + c), 0.5 * (c + a), (a + b + c) / 3.0}) {
+            double nearest = std::numeric_limits<double>::max();
+            for (int k = 0; k < 3; ++k)
+                for (const std::uint32_t f : levels.patches[levels.levels.back().triangleOf[t[k]]].triangles[0])
+                    nearest = std::min(nearest, away(x, mesh.triangles[f], rest));
+            ofTriangle[i] = std::max(ofTriangle[i], nearest);
+        }
+    });
+    std::vector<float> out;
+    for (const BlockerLevels::Patch& patch : levels.patches) {
+        double most = 0;
+        for (const std::uint32_t t : patch.triangles[l]) most = std::max(most, ofTriangle[t]);
+        for (const std::uint32_t v : patch.vertices)
+            most = std::max(most, away(rest[v], level.triangles[level.triangleOf[v]], at));
+        out.push_back(extent > 0 ? static_cast<float>(std::sqrt(most)) / extent : 0.0f);
+    }
+    return out;
 }
 
 }  // namespace
@@ -140,17 +186,17 @@ float extentOf(std::span<const glm::vec3> positions) {
 BlockerLevels makeBlockerLevels(const WeldedMesh& mesh, std::span<const glm::vec3> rest, const BlockerLevelOptions& options) {
     BlockerLevels out;
     const std::size_t fine = mesh.triangles.size();
-    out.levels.push_back({mesh.triangles, std::vector<float>(rest.size(), 0), {}});
+    out.levels.push_back({mesh.triangles, std::vector<float>(rest.size(), 0), {}, {}});
     const std::vector<glm::vec3> normals = vertexNormals(mesh.triangles, cornersOfVertices(mesh.triangles, rest.size()), rest);
     if (options.coarse > 0 && options.coarse < fine) {
-        std::vector<std::size_t> counts;
-        if (fine > options.coarse * options.least * options.least)
-            counts.push_back(static_cast<std::size_t>(std::sqrt(static_cast<double>(fine) * static_cast<double>(options.coarse))));
-        counts.push_back(options.coarse);
-        for (const std::size_t count : counts) {
+        const std::vector<std::uint32_t> parts = connectedParts(mesh.triangles, rest.size());
+        const double steps = std::max(1.0, std::round(std::log(static_cast<double>(fine) / static_cast<double>(options.coarse)) / std::log(options.ratio)));
+        for (double step = 1; step <= steps; ++step) {
+            const auto count = static_cast<std::size_t>(static_cast<double>(fine) * std::pow(static_cast<double>(options.coarse) / static_cast<double>(fine), step / steps));
             std::vector<glm::uvec3> triangles = simplified(mesh.triangles, rest, count);
+            keepParts(triangles, out.levels.back().triangles, parts);
             if (!triangles.empty() && triangles.size() < out.levels.back().triangles.size())
-                out.levels.push_back(levelOf(std::move(triangles), rest, normals));
+                out.levels.push_back(levelOf(std::move(triangles), rest, normals, parts));
         }
     }
     const BlockerLevels::Level& coarsest = out.levels.back();
@@ -172,6 +218,8 @@ BlockerLevels makeBlockerLevels(const WeldedMesh& mesh, std::span<const glm::vec
             for (int c = 0; c < 3; ++c)
                 if (std::find(patch, patch + c, patch[c]) == patch + c) out.patches[patch[c]].triangles[level].push_back(t);
         }
+    for (std::size_t level = 1; level < out.levels.size(); ++level)
+        out.levels[level].restError = restErrors(out, level, rest, extentOf(rest));
     return out;
 }
 

@@ -7,7 +7,7 @@ namespace nacre {
 
 struct BlockerLevelOptions {
     std::size_t coarse = 400;  ///< triangles of the coarsest level; 0 = the mesh itself, nothing coarser
-    std::size_t least = 3;     ///< a level between two where their triangles differ more than this squared times
+    double ratio = 3;          ///< about so many times fewer triangles from level to level
 };
 
 /// Level 0 is the mesh, the last the coarsest. All levels use the mesh's vertices (edges are collapsed onto vertices that
@@ -19,6 +19,7 @@ struct BlockerLevels {
         /// least-squares fit to the mesh, which a coarse mesh with vertices on a curved surface lies inside of.
         std::vector<float> push;
         std::vector<std::uint32_t> triangleOf;  ///< of each vertex of the mesh: the level's triangle that stands for it
+        std::vector<float> restError;  ///< [patch] distance from the mesh, either way, at rest [of the extent]; level ≥ 1
     };
     std::vector<Level> levels;
 

@@ -51,19 +51,12 @@ void sortUnique(std::vector<std::uint32_t>& numbers) {
 /// How far connected parts are from enclosing something: Σ |Σ area vectors| / Σ areas, 0 for closed shells, 1 for flat
 /// sheets.
 double openness(std::span<const glm::uvec3> triangles, std::span<const glm::vec3> positions) {
-    std::vector<std::uint32_t> parent(positions.size());
-    std::iota(parent.begin(), parent.end(), 0u);
-    const auto root = [&](std::uint32_t v) {
-        while (parent[v] != v) v = parent[v] = parent[parent[v]];
-        return v;
-    };
-    for (const glm::uvec3& t : triangles)
-        for (int c = 1; c < 3; ++c) parent[root(t[c])] = root(t[0]);
+    const std::vector<std::uint32_t> part = connectedParts(triangles, positions.size());
     std::vector<glm::dvec3> sums(positions.size(), glm::dvec3(0));
     double area = 0, open = 0;
     for (const glm::uvec3& t : triangles) {
         const glm::dvec3 a = positions[t.x], n = glm::cross(glm::dvec3(positions[t.y]) - a, glm::dvec3(positions[t.z]) - a);
-        sums[root(t.x)] += n;
+        sums[part[t.x]] += n;
         area += glm::length(n);
     }
     for (const glm::dvec3& n : sums) open += glm::length(n);
@@ -94,6 +87,7 @@ struct SelfTransfer::State {
     std::vector<std::vector<std::uint32_t>> near;  ///< [group] triangles of the mesh within the rings
     std::vector<std::vector<std::uint8_t>> nearPatches;  ///< [group][patch] that have some of them
     std::vector<std::uint32_t> firstRow;  ///< [level]
+    std::vector<float> angles;            ///< [group] lodAngle, less where little light gets to
     MaskKernel kernel;
     BlockerKernel blockerKernels;
     std::shared_ptr<const MaskRows> rows;
@@ -103,6 +97,7 @@ struct SelfTransfer::State {
 
     State(WeldedMesh m, std::span<const glm::vec3> rest, const SelfTransferOptions& o);
     void findNear();
+    void fitAngles(std::span<const float> atRest);
     BlockersNow blockers(std::span<const glm::vec3> positions) const;
     std::size_t listBlockers(const BlockersNow& blockersNow, const GroupBounds& bounds, std::size_t group, Scratch& scratch) const;
     void makeSkirts(std::uint32_t vertex, const Receiver& receiver, std::span<const glm::vec3> positions, Scratch& scratch) const;
@@ -133,7 +128,18 @@ SelfTransfer::State::State(WeldedMesh m, std::span<const glm::vec3> rest, const 
     }
     const std::vector<glm::vec3> normals = vertexNormals(mesh.triangles, corners[0], rest);
     groups = groupReceivers(rest, normals, kGroup);
+    angles.assign(groups.size(), static_cast<float>(options.lodAngle));
     findNear();
+}
+
+/// Errors count relative to the light that a vertex gets: a group with one that gets little at rest needs finer blockers.
+void SelfTransfer::State::fitAngles(std::span<const float> atRest) {
+    constexpr double kDark = 0.3;        // of an open vertex's light
+    constexpr float kDarkAngle = 0.4f;  // of the other groups' angle
+    const std::size_t size = open.size() * open.size();
+    for (std::size_t g = 0; g < groups.size(); ++g)
+        if (std::any_of(groups[g].begin(), groups[g].end(), [&](std::uint32_t v) { return atRest[size * v] < kDark * open[0]; }))
+            angles[g] *= kDarkAngle;
 }
 
 /// The triangles of all vertices within the rings.
@@ -192,7 +198,7 @@ BlockersNow SelfTransfer::State::blockers(std::span<const glm::vec3> positions) 
         for (int k = 0; k < 3; ++k) columns.centre[k][p] = centre[k];
         columns.radius[p] = 0.5f * glm::length(high - low);
         for (std::size_t l = 1; l < levelCount; ++l) {
-            float off = 0;
+            float off = levels.levels[l].restError[p] * extent;
             for (const std::uint32_t v : patch.vertices)
                 off = std::max(off, offPlane(out.rows[firstRow[l] + levels.levels[l].triangleOf[v]], positions[v]));
             columns.off[l][p] = off;
@@ -212,7 +218,7 @@ std::size_t SelfTransfer::State::listBlockers(const BlockersNow& blockersNow, co
         for (std::vector<float>& c : scratch.listed.columns) c.resize(padded);
     }
     scratch.levels.resize(levels.patches.size() + kLanes);
-    blockerKernels.choose(blockersNow.patches, bounds, static_cast<float>(options.lodAngle), scratch.levels.data());
+    blockerKernels.choose(blockersNow.patches, bounds, angles[group], scratch.levels.data());
     ++scratch.lists;
     std::size_t count = 0, hidden = 0;
     const auto add = [&](std::uint32_t row) {
@@ -320,6 +326,7 @@ SelfTransfer::SelfTransfer(WeldedMesh mesh, std::span<const glm::vec3> rest, con
     require(std::isfinite(options.lodAngle) && options.lodAngle >= 0, "transfer: expected an angle of 0 or more");
     require(rest.size() == mesh.vertexCount(), "transfer: expected a position a vertex");
     state_ = std::make_unique<State>(std::move(mesh), rest, options);
+    if (options.coarse > 0 && !rest.empty()) state_->fitAngles(compute(rest).coefficients);
 }
 SelfTransfer::~SelfTransfer() = default;
 SelfTransfer::SelfTransfer(SelfTransfer&&) noexcept = default;

@@ -19,8 +19,8 @@ struct SelfTransferOptions {
     int mask = 32;                 ///< N of N × N bits: 16, 32, 64, 128
     int order = 4;                 ///< highest band of harmonics, 0 to 6: (order + 1)² coefficients
     int rings = 1;                 ///< within so many rings of triangles about a vertex the mesh itself blocks: 1 or 2
-    std::size_t coarse = 400;      ///< triangles of the coarsest level; 0 = the mesh itself everywhere
-    double lodAngle = 0.2;         ///< [rad] a level is used where it is off by less, seen from the vertex
+    std::size_t coarse = 150;      ///< triangles of the coarsest level, about; 0 = the mesh itself everywhere
+    double lodAngle = 0.25;        ///< [rad] a level is used where it is off by less, seen from the vertex; less where it is dark
     BlockingSides sides = BlockingSides::Auto;
     VectorSet vectors = VectorSet::Widest;
     unsigned threads = 0;

@@ -7,7 +7,8 @@
 
 namespace nacre {
 
-/// A mesh whose seams are closed: vertices that lie at one place in every finite frame are one.
+/// A mesh whose seams are closed: vertices that lie at one place (within 1e-5 of the frame's extent)
+/// in every finite frame are one.
 struct WeldedMesh {
     std::vector<std::uint32_t> weldOf;   ///< of each of the animation's vertices: its number here
     std::vector<std::uint32_t> firstOf;  ///< of each vertex here: the first of the animation's
@@ -27,6 +28,9 @@ struct CornersOfVertices {
     std::vector<std::uint32_t> first, order;
 };
 CornersOfVertices cornersOfVertices(std::span<const glm::uvec3> triangles, std::size_t vertices);
+
+/// Of each vertex the first of those that triangles connect it with: a number for each connected part.
+std::vector<std::uint32_t> connectedParts(std::span<const glm::uvec3> triangles, std::size_t vertices);
 
 /// Unit normals Σ (a × b)/(|a|²|b|²) over the corners' edges a, b (Max 1999: exact on spheres, and however flat faces are
 /// cut into triangles); (0,0,0) where no triangle has area or the sum vanishes. \param positions  finite
