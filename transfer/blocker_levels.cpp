@@ -12,7 +12,8 @@ namespace nacre {
 namespace {
 
 /// Edge collapses (Garland & Heckbert 1997, by meshoptimizer) until `count` triangles are left, or no more can go.
-std::vector<glm::uvec3> simplified(std::span<const glm::uvec3> triangles, std::span<const glm::vec3> positions, std::size_t count) {
+std::vector<glm::uvec3> simplified(std::span<const glm::uvec3> triangles, std::span<const glm::vec3> positions,
+                                   std::size_t count) {
     std::vector<unsigned> indices(3 * triangles.size());
     const std::size_t left = meshopt_simplify(indices.data(), &triangles[0].x, 3 * triangles.size(), &positions[0].x,
                                               positions.size(), sizeof(glm::vec3), 3 * count, 1e10f, 0, nullptr);
@@ -22,7 +23,8 @@ std::vector<glm::uvec3> simplified(std::span<const glm::uvec3> triangles, std::s
 }
 
 /// Adds the triangles of those connected parts that have none left.
-void keepParts(std::vector<glm::uvec3>& triangles, const std::vector<glm::uvec3>& finer, std::span<const std::uint32_t> parts) {
+void keepParts(std::vector<glm::uvec3>& triangles, const std::vector<glm::uvec3>& finer,
+               std::span<const std::uint32_t> parts) {
     std::vector<std::uint8_t> left(parts.size(), 0);
     for (const glm::uvec3& t : triangles) left[parts[t.x]] = 1;
     for (const glm::uvec3& t : finer)
@@ -66,8 +68,8 @@ struct Standing {
     std::vector<std::uint32_t> triangle;
     std::vector<glm::dvec3> weights;
 };
-Standing standing(const std::vector<glm::uvec3>& triangles, std::span<const glm::vec3> rest, std::span<const glm::vec3> normals,
-                  std::span<const std::uint32_t> parts) {
+Standing standing(const std::vector<glm::uvec3>& triangles, std::span<const glm::vec3> rest,
+                  std::span<const glm::vec3> normals, std::span<const std::uint32_t> parts) {
     std::vector<std::vector<std::uint32_t>> ofPart(rest.size());
     for (std::uint32_t t = 0; t < triangles.size(); ++t) ofPart[parts[triangles[t].x]].push_back(t);
     struct Ball {
@@ -105,7 +107,8 @@ Standing standing(const std::vector<glm::uvec3>& triangles, std::span<const glm:
 }
 
 /// Least squares by relaxation: Σ_i w_i push_i is the height over the level's triangle, for each vertex of the mesh.
-std::vector<float> fittedPush(const std::vector<glm::uvec3>& triangles, const Standing& stands, std::span<const glm::vec3> rest) {
+std::vector<float> fittedPush(const std::vector<glm::uvec3>& triangles, const Standing& stands,
+                              std::span<const glm::vec3> rest) {
     std::vector<double> push(rest.size(), 0), sum(rest.size()), weight(rest.size());
     constexpr int kRounds = 12;
     for (int round = 0; round < kRounds; ++round) {
@@ -132,8 +135,8 @@ std::vector<float> fittedPush(const std::vector<glm::uvec3>& triangles, const St
     return out;
 }
 
-BlockerLevels::Level levelOf(std::vector<glm::uvec3> triangles, std::span<const glm::vec3> rest, std::span<const glm::vec3> normals,
-                             std::span<const std::uint32_t> parts) {
+BlockerLevels::Level levelOf(std::vector<glm::uvec3> triangles, std::span<const glm::vec3> rest,
+                             std::span<const glm::vec3> normals, std::span<const std::uint32_t> parts) {
     const Standing stands = standing(triangles, rest, normals, parts);
     std::vector<float> push = fittedPush(triangles, stands, rest);
     return {std::move(triangles), std::move(push), stands.triangle, {}};
@@ -142,9 +145,11 @@ BlockerLevels::Level levelOf(std::vector<glm::uvec3> triangles, std::span<const 
 /// How far each patch's surfaces at a level and in the mesh are from each other at rest, either way [of the extent].
 /// Triangles are measured at their corners, middles of edges and centre, against the mesh where it belongs to the
 /// patches of their corners.
-std::vector<float> restErrors(const BlockerLevels& levels, std::size_t l, std::span<const glm::vec3> rest, float extent) {
+std::vector<float> restErrors(const BlockerLevels& levels, std::size_t l, std::span<const glm::vec3> rest,
+                              float extent) {
     const BlockerLevels::Level &level = levels.levels[l], &mesh = levels.levels[0];
-    const std::vector<glm::vec3> at = pushedPositions(level, cornersOfVertices(level.triangles, rest.size()), rest, extent);
+    const std::vector<glm::vec3> at =
+        pushedPositions(level, cornersOfVertices(level.triangles, rest.size()), rest, extent);
     const auto away = [](const glm::dvec3& x, const glm::uvec3& t, std::span<const glm::vec3> p) {
         return nearestOn(x, p[t.x], p[t.y], p[t.z]).distanceSquared;
     };
@@ -183,16 +188,22 @@ float extentOf(std::span<const glm::vec3> positions) {
     return std::max({high.x - low.x, high.y - low.y, high.z - low.z});
 }
 
-BlockerLevels makeBlockerLevels(const WeldedMesh& mesh, std::span<const glm::vec3> rest, const BlockerLevelOptions& options) {
+BlockerLevels makeBlockerLevels(const WeldedMesh& mesh, std::span<const glm::vec3> rest,
+                                const BlockerLevelOptions& options) {
     BlockerLevels out;
     const std::size_t fine = mesh.triangles.size();
     out.levels.push_back({mesh.triangles, std::vector<float>(rest.size(), 0), {}, {}});
-    const std::vector<glm::vec3> normals = vertexNormals(mesh.triangles, cornersOfVertices(mesh.triangles, rest.size()), rest);
+    const std::vector<glm::vec3> normals =
+        vertexNormals(mesh.triangles, cornersOfVertices(mesh.triangles, rest.size()), rest);
     if (options.coarse > 0 && options.coarse < fine) {
         const std::vector<std::uint32_t> parts = connectedParts(mesh.triangles, rest.size());
-        const double steps = std::max(1.0, std::round(std::log(static_cast<double>(fine) / static_cast<double>(options.coarse)) / std::log(options.ratio)));
+        const double steps =
+            std::max(1.0, std::round(std::log(static_cast<double>(fine) / static_cast<double>(options.coarse)) /
+                                     std::log(options.ratio)));
         for (double step = 1; step <= steps; ++step) {
-            const auto count = static_cast<std::size_t>(static_cast<double>(fine) * std::pow(static_cast<double>(options.coarse) / static_cast<double>(fine), step / steps));
+            const auto count = static_cast<std::size_t>(
+                static_cast<double>(fine) *
+                std::pow(static_cast<double>(options.coarse) / static_cast<double>(fine), step / steps));
             std::vector<glm::uvec3> triangles = simplified(mesh.triangles, rest, count);
             keepParts(triangles, out.levels.back().triangles, parts);
             if (!triangles.empty() && triangles.size() < out.levels.back().triangles.size())
@@ -216,7 +227,8 @@ BlockerLevels makeBlockerLevels(const WeldedMesh& mesh, std::span<const glm::vec
             std::uint32_t patch[3];
             for (int c = 0; c < 3; ++c) patch[c] = coarsest.triangleOf[out.levels[level].triangles[t][c]];
             for (int c = 0; c < 3; ++c)
-                if (std::find(patch, patch + c, patch[c]) == patch + c) out.patches[patch[c]].triangles[level].push_back(t);
+                if (std::find(patch, patch + c, patch[c]) == patch + c)
+                    out.patches[patch[c]].triangles[level].push_back(t);
         }
     for (std::size_t level = 1; level < out.levels.size(); ++level)
         out.levels[level].restError = restErrors(out, level, rest, extentOf(rest));

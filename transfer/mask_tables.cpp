@@ -104,8 +104,10 @@ std::shared_ptr<const MaskIntegrals> maskIntegrals(int size, int order) {
             const double overRow = (m > 0 ? std::sin(half) / half : 1.0) / (kIntegralScale * size * size);
             for (int r = 0; r < size; ++r) {
                 const double phi = 2 * kPi * (r + 0.5) / size;
-                out->rowCos[static_cast<std::size_t>(r) * lanes + pair] = static_cast<float>(std::cos(m * phi) * overRow);
-                out->rowSin[static_cast<std::size_t>(r) * lanes + pair] = static_cast<float>(std::sin(m * phi) * overRow);
+                out->rowCos[static_cast<std::size_t>(r) * lanes + pair] =
+                    static_cast<float>(std::cos(m * phi) * overRow);
+                out->rowSin[static_cast<std::size_t>(r) * lanes + pair] =
+                    static_cast<float>(std::sin(m * phi) * overRow);
             }
         }
     return out;

@@ -13,8 +13,8 @@
 namespace nacre {
 namespace {
 
-constexpr std::size_t kGroup = kLanes;        ///< vertices that share a list
-constexpr std::size_t kTimedGroups = 8;   ///< one of so many is timed
+constexpr std::size_t kGroup = kLanes;   ///< vertices that share a list
+constexpr std::size_t kTimedGroups = 8;  ///< one of so many is timed
 
 /// All levels in one frame.
 struct BlockersNow {
@@ -55,7 +55,8 @@ double openness(std::span<const glm::uvec3> triangles, std::span<const glm::vec3
     std::vector<glm::dvec3> sums(positions.size(), glm::dvec3(0));
     double area = 0, open = 0;
     for (const glm::uvec3& t : triangles) {
-        const glm::dvec3 a = positions[t.x], n = glm::cross(glm::dvec3(positions[t.y]) - a, glm::dvec3(positions[t.z]) - a);
+        const glm::dvec3 a = positions[t.x],
+                         n = glm::cross(glm::dvec3(positions[t.y]) - a, glm::dvec3(positions[t.z]) - a);
         sums[part[t.x]] += n;
         area += glm::length(n);
     }
@@ -84,10 +85,10 @@ struct SelfTransfer::State {
     std::vector<CornersOfVertices> corners;                ///< [level]
     std::vector<std::vector<std::uint32_t>> patchCorners;  ///< [patch] vertices of all its triangles
     std::vector<std::vector<std::uint32_t>> groups;
-    std::vector<std::vector<std::uint32_t>> near;  ///< [group] triangles of the mesh within the rings
+    std::vector<std::vector<std::uint32_t>> near;        ///< [group] triangles of the mesh within the rings
     std::vector<std::vector<std::uint8_t>> nearPatches;  ///< [group][patch] that have some of them
-    std::vector<std::uint32_t> firstRow;  ///< [level]
-    std::vector<float> angles;            ///< [group] lodAngle, less where little light gets to
+    std::vector<std::uint32_t> firstRow;                 ///< [level]
+    std::vector<float> angles;                           ///< [group] lodAngle, less where little light gets to
     MaskKernel kernel;
     BlockerKernel blockerKernels;
     std::shared_ptr<const MaskRows> rows;
@@ -99,23 +100,32 @@ struct SelfTransfer::State {
     void findNear();
     void fitAngles(std::span<const float> atRest);
     BlockersNow blockers(std::span<const glm::vec3> positions) const;
-    std::size_t listBlockers(const BlockersNow& blockersNow, const GroupBounds& bounds, std::size_t group, Scratch& scratch) const;
-    void makeSkirts(std::uint32_t vertex, const Receiver& receiver, std::span<const glm::vec3> positions, Scratch& scratch) const;
+    std::size_t listBlockers(const BlockersNow& blockersNow, const GroupBounds& bounds, std::size_t group,
+                             Scratch& scratch) const;
+    void makeSkirts(std::uint32_t vertex, const Receiver& receiver, std::span<const glm::vec3> positions,
+                    Scratch& scratch) const;
     GroupResult computeGroup(std::size_t group, std::span<const std::uint32_t> vertices, const BlockersNow& now,
                              std::span<const glm::vec3> positions, const MaskUse& use, TransferFrame& frame) const;
 };
 
 SelfTransfer::State::State(WeldedMesh m, std::span<const glm::vec3> rest, const SelfTransferOptions& o)
-    : mesh(std::move(m)), options(o), levels(makeBlockerLevels(mesh, rest, {o.coarse})),
-      kernel(maskKernel(o.mask, o.vectors)), blockerKernels(blockerKernel(o.vectors)), rows(maskRows(o.mask)), integrals(maskIntegrals(o.mask, o.order)), rotation(o.order),
+    : mesh(std::move(m)),
+      options(o),
+      levels(makeBlockerLevels(mesh, rest, {o.coarse})),
+      kernel(maskKernel(o.mask, o.vectors)),
+      blockerKernels(blockerKernel(o.vectors)),
+      rows(maskRows(o.mask)),
+      integrals(maskIntegrals(o.mask, o.order)),
+      rotation(o.order),
       open(openTransfer(o.order)) {
     if (options.sides == BlockingSides::Auto)
-        options.sides = mesh.closed                       ? BlockingSides::Front
+        options.sides = mesh.closed                            ? BlockingSides::Front
                         : openness(mesh.triangles, rest) < 0.2 ? BlockingSides::Fine
-                                                          : BlockingSides::Both;
-    for (const BlockerLevels::Level& level : levels.levels)
-{
-        firstRow.push_back(corners.empty() ? 0u : firstRow.back() + static_cast<std::uint32_t>(levels.levels[corners.size() - 1].triangles.size()));
+                                                               : BlockingSides::Both;
+    for (const BlockerLevels::Level& level : levels.levels) {
+        firstRow.push_back(corners.empty() ? 0u
+                                           : firstRow.back() + static_cast<std::uint32_t>(
+                                                                   levels.levels[corners.size() - 1].triangles.size()));
         corners.push_back(cornersOfVertices(level.triangles, mesh.vertexCount()));
     }
     for (const BlockerLevels::Patch& patch : levels.patches) {
@@ -132,13 +142,15 @@ SelfTransfer::State::State(WeldedMesh m, std::span<const glm::vec3> rest, const 
     findNear();
 }
 
-/// Errors count relative to the light that a vertex gets: a group with one that gets little at rest needs finer blockers.
+/// Errors count relative to the light that a vertex gets: a group with one that gets little at rest needs finer
+/// blockers.
 void SelfTransfer::State::fitAngles(std::span<const float> atRest) {
-    constexpr double kDark = 0.3;        // of an open vertex's light
+    constexpr double kDark = 0.3;       // of an open vertex's light
     constexpr float kDarkAngle = 0.4f;  // of the other groups' angle
     const std::size_t size = open.size() * open.size();
     for (std::size_t g = 0; g < groups.size(); ++g)
-        if (std::any_of(groups[g].begin(), groups[g].end(), [&](std::uint32_t v) { return atRest[size * v] < kDark * open[0]; }))
+        if (std::any_of(groups[g].begin(), groups[g].end(),
+                        [&](std::uint32_t v) { return atRest[size * v] < kDark * open[0]; }))
             angles[g] *= kDarkAngle;
 }
 
@@ -189,7 +201,8 @@ BlockersNow SelfTransfer::State::blockers(std::span<const glm::vec3> positions) 
             low = glm::min(low, x);
             high = glm::max(high, x);
         };
-        for (int c = 1; c < 3; ++c) hold({coarsest.corners[3 * c], coarsest.corners[3 * c + 1], coarsest.corners[3 * c + 2]});
+        for (int c = 1; c < 3; ++c)
+            hold({coarsest.corners[3 * c], coarsest.corners[3 * c + 1], coarsest.corners[3 * c + 2]});
         for (const std::uint32_t v : patchCorners[p]) {
             hold(positions[v]);
             for (std::size_t l = 1; l + 1 < levelCount; ++l) hold(moved[l][v]);
@@ -208,8 +221,8 @@ BlockersNow SelfTransfer::State::blockers(std::span<const glm::vec3> positions) 
 }
 
 /// What may block some vertex of the group. \return blockers before culling
-std::size_t SelfTransfer::State::listBlockers(const BlockersNow& blockersNow, const GroupBounds& bounds, std::size_t group,
-                                              Scratch& scratch) const {
+std::size_t SelfTransfer::State::listBlockers(const BlockersNow& blockersNow, const GroupBounds& bounds,
+                                              std::size_t group, Scratch& scratch) const {
     const std::size_t rowCount = blockersNow.rows.size(), padded = rowCount + 2 * kLanes;
     if (scratch.seen.size() < rowCount) scratch.seen.resize(rowCount, 0);
     if (scratch.candidates.size() < padded) {
@@ -243,8 +256,8 @@ std::size_t SelfTransfer::State::listBlockers(const BlockersNow& blockersNow, co
 
 /// The triangles at the vertex itself span no solid angle, but hide what lies under them: each as a triangle from its
 /// far edge down to −n.
-void SelfTransfer::State::makeSkirts(std::uint32_t vertex, const Receiver& receiver, std::span<const glm::vec3> positions,
-                                     Scratch& scratch) const {
+void SelfTransfer::State::makeSkirts(std::uint32_t vertex, const Receiver& receiver,
+                                     std::span<const glm::vec3> positions, Scratch& scratch) const {
     scratch.skirts.clear();
     const glm::vec3 &p = positions[vertex], &n = receiver.normal;
     const auto rises = [&](const glm::vec3& d) {
@@ -264,8 +277,9 @@ void SelfTransfer::State::makeSkirts(std::uint32_t vertex, const Receiver& recei
     std::iota(scratch.skirtIndices.begin(), scratch.skirtIndices.end(), 0u);
 }
 
-GroupResult SelfTransfer::State::computeGroup(std::size_t group, std::span<const std::uint32_t> vertices, const BlockersNow& blockersNow,
-                                              std::span<const glm::vec3> positions, const MaskUse& use, TransferFrame& frame) const {
+GroupResult SelfTransfer::State::computeGroup(std::size_t group, std::span<const std::uint32_t> vertices,
+                                              const BlockersNow& blockersNow, std::span<const glm::vec3> positions,
+                                              const MaskUse& use, TransferFrame& frame) const {
     static thread_local Scratch scratch;
     GroupResult result;
     // Asking for the time costs as much as a vertex: every eighth group stands for the others.
@@ -281,15 +295,16 @@ GroupResult SelfTransfer::State::computeGroup(std::size_t group, std::span<const
     const bool bothSides = options.sides == BlockingSides::Both, drawBoth = options.sides != BlockingSides::Front;
     for (std::size_t i = 0; i < vertices.size(); ++i) {
         scratch.receivers[i] = receiverAt(positions[vertices[i]], frame.normals[vertices[i]]);
-        scratch.counts[i] = blockerKernels.cull(scratch.listed, scratch.receivers[i], bothSides, &scratch.indices[room * i]);
+        scratch.counts[i] =
+            blockerKernels.cull(scratch.listed, scratch.receivers[i], bothSides, &scratch.indices[room * i]);
         result.drawn += scratch.counts[i];
     }
     const double listed = now();
     const std::size_t words = maskWords(options.mask);
     scratch.masks.assign(words * vertices.size(), 0);
     for (std::size_t i = 0; i < vertices.size(); ++i) {
-        kernel.draw(*rows, blockersNow.rows.data(), scratch.receivers[i], drawBoth, &scratch.indices[room * i], scratch.counts[i],
-                    &scratch.masks[words * i]);
+        kernel.draw(*rows, blockersNow.rows.data(), scratch.receivers[i], drawBoth, &scratch.indices[room * i],
+                    scratch.counts[i], &scratch.masks[words * i]);
         makeSkirts(vertices[i], scratch.receivers[i], positions, scratch);
         kernel.draw(*rows, scratch.skirts.data(), scratch.receivers[i], drawBoth, scratch.skirtIndices.data(),
                     scratch.skirts.size(), &scratch.masks[words * i]);
@@ -308,8 +323,11 @@ GroupResult SelfTransfer::State::computeGroup(std::size_t group, std::span<const
         for (int l = 0, pair = 0; l <= options.order; ++l)
             for (int m = 0; m <= l; ++m, ++pair) {
                 const float* sums = &scratch.sums[static_cast<std::size_t>(pair / kLanes * 2 * kLanes + pair % kLanes)];
-                const auto local = [&](int c) -> float& { return scratch.local[static_cast<std::size_t>(c) * kLanes + i]; };
-                local(l * l + l + m) = (m == 0 ? static_cast<float>(open[static_cast<std::size_t>(l)]) : 0.0f) - sums[0];
+                const auto local = [&](int c) -> float& {
+                    return scratch.local[static_cast<std::size_t>(c) * kLanes + i];
+                };
+                local(l * l + l + m) =
+                    (m == 0 ? static_cast<float>(open[static_cast<std::size_t>(l)]) : 0.0f) - sums[0];
                 if (m > 0) local(l * l + l - m) = -sums[kLanes];
             }
     }
@@ -335,18 +353,21 @@ const WeldedMesh& SelfTransfer::mesh() const { return state_->mesh; }
 const SelfTransferOptions& SelfTransfer::options() const { return state_->options; }
 std::size_t SelfTransfer::coarseTriangles() const { return state_->levels.levels.back().triangles.size(); }
 
-TransferFrame SelfTransfer::compute(std::span<const glm::vec3> given, std::span<const std::uint8_t> wanted, const MaskUse& use) const {
+TransferFrame SelfTransfer::compute(std::span<const glm::vec3> given, std::span<const std::uint8_t> wanted,
+                                    const MaskUse& use) const {
     const State& s = *state_;
     require(given.size() == s.mesh.vertexCount(), "transfer: expected a position a vertex");
     require(wanted.empty() || wanted.size() == given.size(), "transfer: expected one mark a vertex");
     for (const glm::vec3& p : given)
-        require(std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z), "transfer: positions that are not finite");
+        require(std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z),
+                "transfer: positions that are not finite");
     const double start = threadSeconds();
     // About the first vertex: far from the origin floats are coarse.
     std::vector<glm::vec3> positions(given.begin(), given.end());
     for (glm::vec3& p : positions) p -= given[0];
     TransferFrame frame;
-    frame.coefficients.assign(positions.size() * static_cast<std::size_t>((s.options.order + 1) * (s.options.order + 1)), 0);
+    frame.coefficients.assign(
+        positions.size() * static_cast<std::size_t>((s.options.order + 1) * (s.options.order + 1)), 0);
     frame.normals = vertexNormals(s.mesh.triangles, s.corners[0], positions, s.options.threads);
     const BlockersNow blockersNow = s.blockers(positions);
     const double prepared = threadSeconds();

@@ -25,7 +25,8 @@ public:
         for (int corner = 0; corner < 8; ++corner) {
             const bool x = corner & 1, y = corner & 2, z = corner & 4;
             if ((x && low.x == high.x) || (y && low.y == high.y) || (z && low.z == high.z)) continue;
-            const auto [begin, end] = cells_.equal_range(key({x ? high.x : low.x, y ? high.y : low.y, z ? high.z : low.z}));
+            const auto [begin, end] =
+                cells_.equal_range(key({x ? high.x : low.x, y ? high.y : low.y, z ? high.z : low.z}));
             if (std::any_of(begin, end, [&](const auto& entry) { return use(entry.second); })) return true;
         }
         return false;
@@ -68,7 +69,8 @@ constexpr double kOnePlace = 1e-5;  ///< [of the extent]
 bool together(const AnimatedMesh& animation, const std::vector<double>& extents, std::uint32_t a, std::uint32_t b) {
     for (std::size_t f = 0; f < animation.frames.size(); ++f) {
         const glm::vec3 &p = animation.frames[f][a], &q = animation.frames[f][b];
-        if (hasNumbers(p) && hasNumbers(q) && glm::distance(glm::dvec3(p), glm::dvec3(q)) > kOnePlace * extents[f]) return false;
+        if (hasNumbers(p) && hasNumbers(q) && glm::distance(glm::dvec3(p), glm::dvec3(q)) > kOnePlace * extents[f])
+            return false;
     }
     return true;
 }
@@ -93,8 +95,8 @@ WeldedMesh weldMesh(const AnimatedMesh& animation, const std::string& name) {
     mesh.weldOf.resize(count);
     std::vector<double> extents;
     for (const std::vector<glm::vec3>& frame : animation.frames) extents.push_back(extentOfFinite(frame));
-    const auto best = std::max_element(
-        animation.frames.begin(), animation.frames.end(), [](const auto& a, const auto& b) {
+    const auto best =
+        std::max_element(animation.frames.begin(), animation.frames.end(), [](const auto& a, const auto& b) {
             return std::count_if(a.begin(), a.end(), hasNumbers) < std::count_if(b.begin(), b.end(), hasNumbers);
         });
     Grid grid(2 * kOnePlace * extents[static_cast<std::size_t>(best - animation.frames.begin())]);
@@ -175,7 +177,8 @@ std::vector<glm::vec3> vertexNormals(std::span<const glm::uvec3> triangles, cons
     parallelFor((positions.size() + kChunk - 1) / kChunk, threads, [&](std::size_t chunk) {
         for (std::size_t v = chunk * kChunk; v < std::min(positions.size(), (chunk + 1) * kChunk); ++v)
             normals[v] = vertexNormal(
-                triangles, std::span(corners.order).subspan(corners.first[v], corners.first[v + 1] - corners.first[v]), positions);
+                triangles, std::span(corners.order).subspan(corners.first[v], corners.first[v + 1] - corners.first[v]),
+                positions);
     });
     return normals;
 }
