@@ -53,18 +53,23 @@ void list(const BlockerRow* rows, std::uint32_t* candidates, std::size_t count, 
 }
 
 std::size_t cull(const ListedBlockers& list, const Receiver& receiver, bool bothSides, std::uint32_t* out) {
-    const glm::vec3 &p = receiver.point, &n = receiver.normal;
+    const glm::vec3 p = receiver.point, n = receiver.normal;
     const Floats height = splat(n.x * p.x + n.y * p.y + n.z * p.z);
-    std::size_t count = 0;
-    for (std::size_t i = 0; i < list.count; i += kWide) {
-        const Floats z = larger(larger(dot(n, columnsAt(list.columns, i)), dot(n, columnsAt(list.columns + 3, i))),
-                                dot(n, columnsAt(list.columns + 6, i)));
+    const float* column[13];
+    for (int c = 0; c < 13; ++c) column[c] = list.columns[c].data();
+    const auto at = [&](int c, std::size_t i) {
+        return Columns{load(column[c] + i), load(column[c + 1] + i), load(column[c + 2] + i)};
+    };
+    Mask numbers{};
+    for (int k = 0; k < kWide; ++k) numbers[k] = k;
+    std::size_t found = 0;
+    const std::size_t count = list.count;
+    for (std::size_t i = 0; i < count; i += kWide) {
+        const Floats z = larger(larger(dot(n, at(0, i)), dot(n, at(3, i))), dot(n, at(6, i)));
         Mask keep = z > height;
-        if (!bothSides) keep &= dot(p, columnsAt(list.columns + 9, i)) > load(&list.columns[12][i]);
-        const unsigned used = list.count - i >= kWide ? 0xffffu : (1u << (list.count - i)) - 1;
-        std::uint32_t which[kWide];
-        std::memcpy(which, &list.index[i], sizeof(which));
-        count = append(out, count, which, lanes(keep) & used);
+        if (!bothSides) keep &= dot(p, at(9, i)) > load(column[12] + i);
+        const unsigned used = count - i >= kWide ? 0xffffu : (1u << (count - i)) - 1;
+        found = append(out, found, numbers + static_cast<std::int32_t>(i), lanes(keep) & used);
     }
-    return count;
+    return found;
 }

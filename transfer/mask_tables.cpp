@@ -57,6 +57,7 @@ std::shared_ptr<const MaskRows> maskRows(int size) {
         rows->dither[r] = static_cast<float>(radicalInverse(static_cast<std::uint64_t>(r), 2) + 0.5 / size);
     }
     rows->windows.resize(static_cast<std::size_t>(size));
+    rows->halves.resize(static_cast<std::size_t>(size));
     for (int w = 0; w < size; ++w) {
         MaskRows::Window& window = rows->windows[static_cast<std::size_t>(w)];
         window = {};
@@ -66,6 +67,15 @@ std::shared_ptr<const MaskRows> maskRows(int size) {
             window.sinPhi[lane] = rows->sinPhi[row];
             window.dither[lane] = rows->dither[row];
             window.inBlock[row / kLanes][lane] = ~0u;
+        }
+        MaskRows::HalfWindow& half = rows->halves[static_cast<std::size_t>(w)];
+        half = {};
+        for (int k = 0; k < kLanes / 2; ++k) {
+            const int row = (w + k) % size, lane = row % (kLanes / 2);
+            half.cosPhi[lane] = rows->cosPhi[row];
+            half.sinPhi[lane] = rows->sinPhi[row];
+            half.dither[lane] = rows->dither[row];
+            half.inBlock[row / kLanes][row % kLanes] = ~0u;
         }
     }
     return rows;

@@ -29,6 +29,12 @@ struct MaskRows {
         alignas(64) std::uint32_t inBlock[kMaxMaskSize / kLanes][kLanes];
     };
     std::vector<Window> windows;  ///< one a row
+    /// Eight rows from row w on, each in the lane of its row modulo eight; `inBlock` is for them twice side by side.
+    struct HalfWindow {
+        alignas(32) float cosPhi[kLanes / 2], sinPhi[kLanes / 2], dither[kLanes / 2];
+        alignas(64) std::uint32_t inBlock[kMaxMaskSize / kLanes][kLanes];
+    };
+    std::vector<HalfWindow> halves;  ///< one a row
 };
 
 /// What a mask's bits integrate to: for each row Σ over set bits of the mean of K_lm P_lm over the bit's step, by four

@@ -54,8 +54,8 @@ public:
     ~SelfTransfer();
     SelfTransfer(SelfTransfer&&) noexcept;
 
-    /// Called once for each computed vertex, from any thread: its mask of hidden directions and where that stands (the
-    /// receiver's point is relative to the frame).
+    /// Called once for each computed vertex, from any thread: its mask of hidden directions and where that stands (its
+    /// point is relative to the frame's extent).
     using MaskUse = std::function<void(std::uint32_t vertex, const Receiver&, std::span<const std::uint32_t> mask)>;
 
     /// \param positions  of the welded vertices \param wanted  one a vertex, 0 = leave out; empty = all

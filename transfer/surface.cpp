@@ -133,9 +133,15 @@ CornersOfVertices cornersOfVertices(std::span<const glm::uvec3> triangles, std::
         for (int c = 0; c < 3; ++c) ++corners.first[t[c] + 1];
     for (std::size_t v = 0; v < vertices; ++v) corners.first[v + 1] += corners.first[v];
     corners.order.resize(3 * triangles.size());
+    corners.others.resize(3 * triangles.size());
     std::vector<std::uint32_t> next(corners.first.begin(), corners.first.end() - 1);
     for (std::uint32_t t = 0; t < triangles.size(); ++t)
-        for (std::uint32_t c = 0; c < 3; ++c) corners.order[next[triangles[t][static_cast<int>(c)]]++] = 3 * t + c;
+        for (std::uint32_t c = 0; c < 3; ++c) {
+            const glm::uvec3& of = triangles[t];
+            const std::uint32_t at = next[of[static_cast<int>(c)]]++;
+            corners.order[at] = 3 * t + c;
+            corners.others[at] = {of[static_cast<int>((c + 1) % 3)], of[static_cast<int>((c + 2) % 3)]};
+        }
     return corners;
 }
 
@@ -155,14 +161,12 @@ std::vector<std::uint32_t> connectedParts(std::span<const glm::uvec3> triangles,
     return parent;
 }
 
-static glm::vec3 vertexNormal(std::span<const glm::uvec3> triangles, std::span<const std::uint32_t> corners,
-                              std::span<const glm::vec3> positions) {
+glm::vec3 vertexNormal(const CornersOfVertices& corners, std::size_t vertex, std::span<const glm::vec3> positions) {
     glm::dvec3 sum(0);
-    for (const std::uint32_t corner : corners) {
-        const glm::uvec3& t = triangles[corner / 3];
-        const int c = static_cast<int>(corner % 3);
-        const glm::dvec3 p = positions[t[c]];
-        const glm::dvec3 a = glm::dvec3(positions[t[(c + 1) % 3]]) - p, b = glm::dvec3(positions[t[(c + 2) % 3]]) - p;
+    const glm::dvec3 p = positions[vertex];
+    for (std::uint32_t i = corners.first[vertex]; i < corners.first[vertex + 1]; ++i) {
+        const glm::dvec3 a = glm::dvec3(positions[corners.others[i].x]) - p,
+                         b = glm::dvec3(positions[corners.others[i].y]) - p;
         const double weight = glm::dot(a, a) * glm::dot(b, b);
         if (weight > 0) sum += glm::cross(a, b) / weight;
     }
@@ -170,15 +174,13 @@ static glm::vec3 vertexNormal(std::span<const glm::uvec3> triangles, std::span<c
     return length > 0 && std::isfinite(length) ? glm::vec3(sum / length) : glm::vec3(0);
 }
 
-std::vector<glm::vec3> vertexNormals(std::span<const glm::uvec3> triangles, const CornersOfVertices& corners,
+std::vector<glm::vec3> vertexNormals(std::span<const glm::uvec3>, const CornersOfVertices& corners,
                                      std::span<const glm::vec3> positions, unsigned threads) {
     std::vector<glm::vec3> normals(positions.size());
     constexpr std::size_t kChunk = 256;
     parallelFor((positions.size() + kChunk - 1) / kChunk, threads, [&](std::size_t chunk) {
         for (std::size_t v = chunk * kChunk; v < std::min(positions.size(), (chunk + 1) * kChunk); ++v)
-            normals[v] = vertexNormal(
-                triangles, std::span(corners.order).subspan(corners.first[v], corners.first[v + 1] - corners.first[v]),
-                positions);
+            normals[v] = vertexNormal(corners, v, positions);
     });
     return normals;
 }

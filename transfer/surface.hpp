@@ -27,6 +27,7 @@ std::vector<glm::vec3> weldedPositions(const WeldedMesh& mesh, std::span<const g
 /// + 1]].
 struct CornersOfVertices {
     std::vector<std::uint32_t> first, order;
+    std::vector<glm::uvec2> others;  ///< beside order: the triangle's other vertices, in its direction
 };
 CornersOfVertices cornersOfVertices(std::span<const glm::uvec3> triangles, std::size_t vertices);
 
@@ -37,5 +38,8 @@ std::vector<std::uint32_t> connectedParts(std::span<const glm::uvec3> triangles,
 /// are cut into triangles); (0,0,0) where no triangle has area or the sum vanishes. \param positions  finite
 std::vector<glm::vec3> vertexNormals(std::span<const glm::uvec3> triangles, const CornersOfVertices& corners,
                                      std::span<const glm::vec3> positions, unsigned threads = 0);
+
+/// One of them.
+glm::vec3 vertexNormal(const CornersOfVertices& corners, std::size_t vertex, std::span<const glm::vec3> positions);
 
 }  // namespace nacre

@@ -12,6 +12,13 @@ NACRE_INLINE void store(void* to, const V& v) {
     std::memcpy(to, &v, sizeof(v));
 }
 
+template <class To, class From>
+NACRE_INLINE To as(const From& v) {
+    To out;
+    std::memcpy(&out, &v, sizeof(out));
+    return out;
+}
+
 /// Ones from bit `count` on; none from 32 on. \param count  ≥ 0
 NACRE_INLINE Bits onesFrom(const Mask& count) {
 #if NACRE_SET == 512
