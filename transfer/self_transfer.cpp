@@ -1,6 +1,7 @@
 #include "transfer/self_transfer.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <limits>
 #include <mutex>
@@ -101,11 +102,13 @@ struct SelfTransfer::State {
     void keepSpare(std::unique_ptr<FrameBlockers> blockers);
     void fitAngles(std::span<const float> atRest);
     std::size_t listBlockers(const FrameBlockers& blockers, const GroupBounds& bounds, std::size_t group,
-                             Scratch& scratch) const;
+                             const BlockerSets& sets, Scratch& scratch) const;
+    std::size_t setWords() const { return (levels.rowCount() + 63) / 64; }
     void addSkirts(std::uint32_t vertex, const Receiver& receiver, std::span<const glm::vec3> positions,
                    Scratch& scratch) const;
     GroupResult computeGroup(std::size_t group, std::span<const std::uint32_t> vertices, const FrameBlockers& blockers,
-                             std::span<const glm::vec3> positions, const MaskUse& use, TransferFrame& frame) const;
+                             std::span<const glm::vec3> positions, const MaskUse& use, const BlockerSets& sets,
+                             TransferFrame& frame) const;
 };
 
 SelfTransfer::State::State(WeldedMesh m, std::span<const glm::vec3> rest, const SelfTransferOptions& o)
@@ -181,7 +184,7 @@ void SelfTransfer::State::keepSpare(std::unique_ptr<FrameBlockers> blockers) {
 
 /// What may block some vertex of the group. \return blockers before culling
 std::size_t SelfTransfer::State::listBlockers(const FrameBlockers& blockers, const GroupBounds& bounds,
-                                              std::size_t group, Scratch& scratch) const {
+                                              std::size_t group, const BlockerSets& sets, Scratch& scratch) const {
     const std::size_t rowCount = blockers.rows.size(), padded = rowCount + 2 * kLanes;
     if (scratch.seen.size() < rowCount) scratch.seen.resize(rowCount, 0);
     if (scratch.candidates.size() < padded) {
@@ -193,7 +196,10 @@ std::size_t SelfTransfer::State::listBlockers(const FrameBlockers& blockers, con
     blockerKernels.choose(blockers.patches, bounds, angles[group], scratch.levels.data());
     ++scratch.lists;
     std::size_t count = 0, hidden = 0;
+    const std::span<const std::uint64_t> visible =
+        sets.visible.empty() ? sets.visible : sets.visible.subspan(group * setWords(), setWords());
     const auto add = [&](std::uint32_t row) {
+        if (!visible.empty() && (visible[row / 64] >> row % 64 & 1) == 0) return;
         scratch.candidates[count] = row;
         count += std::exchange(scratch.seen[row], scratch.lists) != scratch.lists;
     };
@@ -241,7 +247,7 @@ void SelfTransfer::State::addSkirts(std::uint32_t vertex, const Receiver& receiv
 
 GroupResult SelfTransfer::State::computeGroup(std::size_t group, std::span<const std::uint32_t> vertices,
                                               const FrameBlockers& blockers, std::span<const glm::vec3> positions,
-                                              const MaskUse& use, TransferFrame& frame) const {
+                                              const MaskUse& use, const BlockerSets& sets, TransferFrame& frame) const {
     static thread_local Scratch scratch;
     GroupResult result;
     // Asking for the time costs as much as a vertex: every eighth group stands for the others.
@@ -249,7 +255,7 @@ GroupResult SelfTransfer::State::computeGroup(std::size_t group, std::span<const
     const auto now = [&] { return timed ? threadSeconds() : 0.0; };
     const double start = now();
     const GroupBounds bounds = boundsOfGroup(vertices, positions, frame.normals);
-    result.listed = listBlockers(blockers, bounds, group, scratch) * vertices.size();
+    result.listed = listBlockers(blockers, bounds, group, sets, scratch) * vertices.size();
     const std::size_t room = scratch.listed.count + mostCorners + 2 * kLanes;
     scratch.indices.resize(room * vertices.size());
     scratch.counts.resize(vertices.size());
@@ -259,6 +265,10 @@ GroupResult SelfTransfer::State::computeGroup(std::size_t group, std::span<const
         scratch.receivers[i] = receiverAt(positions[vertices[i]], frame.normals[vertices[i]]);
         scratch.counts[i] =
             blockerKernels.cull(scratch.listed, scratch.receivers[i], bothSides, &scratch.indices[room * i]);
+        for (std::size_t k = 0; !sets.drawn.empty() && k < scratch.counts[i]; ++k) {
+            const std::uint32_t row = scratch.listed.index[scratch.indices[room * i + k]];
+            sets.drawn[group * setWords() + row / 64] |= std::uint64_t{1} << row % 64;
+        }
     }
     const double listed = now();
     const std::size_t words = maskWords(options.mask);
@@ -317,11 +327,36 @@ const WeldedMesh& SelfTransfer::mesh() const { return state_->mesh; }
 const SelfTransferOptions& SelfTransfer::options() const { return state_->options; }
 std::size_t SelfTransfer::coarseTriangles() const { return state_->levels.coarsestTriangles(); }
 
+std::uint32_t SelfTransfer::groupCount() const { return static_cast<std::uint32_t>(state_->groups.size()); }
+std::uint32_t SelfTransfer::rowCount() const { return static_cast<std::uint32_t>(state_->levels.rowCount()); }
+
+std::uint64_t SelfTransfer::key() const {
+    std::uint64_t hash = 0xcbf29ce484222325ull;  // FNV-1a by words
+    const auto add = [&](std::uint64_t word) { hash = (hash ^ word) * 0x100000001b3ull; };
+    const SelfTransferOptions& o = state_->options;
+    add(o.coarse);
+    add(static_cast<std::uint64_t>(o.rings));
+    add(static_cast<std::uint64_t>(o.sides));
+    add(std::bit_cast<std::uint64_t>(o.lodAngle));
+    for (const std::vector<std::uint32_t>& group : state_->groups)
+        for (const std::uint32_t v : group) add(v);
+    for (const glm::uvec3& t : state_->mesh.triangles)
+        for (int c = 0; c < 3; ++c) add(t[c]);
+    for (std::size_t p = 0; p < state_->levels.patches().size(); ++p)
+        for (const std::vector<std::uint32_t>& level : state_->levels.patches()[p].triangles)
+            for (const std::uint32_t t : level) add(t);
+    return hash;
+}
+
 TransferFrame SelfTransfer::compute(std::span<const glm::vec3> given, std::span<const std::uint8_t> wanted,
-                                    const MaskUse& use) const {
+                                    const MaskUse& use, const BlockerSets& sets) const {
     State& s = *state_;
     require(given.size() == s.mesh.vertexCount(), "transfer: expected a position a vertex");
     require(wanted.empty() || wanted.size() == given.size(), "transfer: expected one mark a vertex");
+    const std::size_t setWords = s.groups.size() * s.setWords();
+    require((sets.visible.empty() || sets.visible.size() == setWords) &&
+                (sets.drawn.empty() || sets.drawn.size() == setWords),
+            "transfer: expected sets of blockers of this mesh");
     for (const glm::vec3& p : given)
         require(std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z),
                 "transfer: positions that are not finite");
@@ -340,7 +375,7 @@ TransferFrame SelfTransfer::compute(std::span<const glm::vec3> given, std::span<
         for (const std::uint32_t v : s.groups[g])
             if ((wanted.empty() || wanted[v]) && frame.normals[v] != glm::vec3(0)) chosen[g].push_back(v);
     parallelFor(s.groups.size(), s.options.threads, [&](std::size_t g) {
-        if (!chosen[g].empty()) results[g] = s.computeGroup(g, chosen[g], *blockers, positions, use, frame);
+        if (!chosen[g].empty()) results[g] = s.computeGroup(g, chosen[g], *blockers, positions, use, sets, frame);
     });
     s.keepSpare(std::move(blockers));
     frame.seconds.transform = prepared - start;

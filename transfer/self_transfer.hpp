@@ -58,14 +58,22 @@ public:
     /// point is relative to the frame's extent).
     using MaskUse = std::function<void(std::uint32_t vertex, const Receiver&, std::span<const std::uint32_t> mask)>;
 
+    /// Bits [group][⌈rows/64⌉] of blockers, for visible_sets.hpp.
+    struct BlockerSets {
+        std::span<const std::uint64_t> visible;  ///< others aren't listed; empty = all are
+        std::span<std::uint64_t> drawn;          ///< those that are drawn are added; empty = not asked
+    };
+
     /// \param positions  of the welded vertices \param wanted  one a vertex, 0 = leave out; empty = all
     /// \throws std::invalid_argument when one isn't finite
     TransferFrame compute(std::span<const glm::vec3> positions, std::span<const std::uint8_t> wanted = {},
-                          const MaskUse& use = {}) const;
+                          const MaskUse& use = {}, const BlockerSets& sets = {}) const;
 
     const WeldedMesh& mesh() const;
     const SelfTransferOptions& options() const;  ///< sides resolved
     std::size_t coarseTriangles() const;
+    std::uint32_t groupCount() const, rowCount() const;
+    std::uint64_t key() const;  ///< differs where sets of blockers mean something else: by mesh, rest and levels
 
 private:
     struct State;
