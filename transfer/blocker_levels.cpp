@@ -31,6 +31,8 @@ void keepParts(std::vector<glm::uvec3>& triangles, const std::vector<glm::uvec3>
         if (!left[parts[t.x]]) triangles.push_back(t);
 }
 
+constexpr std::uint32_t kNoVertex = std::numeric_limits<std::uint32_t>::max();
+
 struct NearPoint {
     double distanceSquared = 0;
     glm::dvec3 weights{0};  ///< barycentric
@@ -176,6 +178,28 @@ std::vector<float> restErrors(const BlockerLevels& levels, std::size_t l, std::s
     return out;
 }
 
+/// For triangles of a level that stand for no vertex: the nearest vertex of their connected part, else kNoVertex.
+std::vector<std::uint32_t> nearestVertices(const BlockerLevels::Level& level, std::span<const glm::vec3> rest,
+                                           std::span<const std::uint32_t> parts) {
+    std::vector<std::uint32_t> out(level.triangles.size(), kNoVertex);
+    std::vector<std::uint8_t> stands(out.size(), 0);
+    for (const std::uint32_t t : level.triangleOf) stands[t] = 1;
+    parallelFor(out.size(), 0, [&](std::size_t i) {
+        if (stands[i]) return;
+        const glm::uvec3& t = level.triangles[i];
+        const glm::vec3 middle = (rest[t.x] + rest[t.y] + rest[t.z]) / 3.0f;
+        float best = std::numeric_limits<float>::max();
+        for (std::uint32_t v = 0; v < rest.size(); ++v) {
+            if (parts[v] != parts[t.x] || v == t.x || v == t.y || v == t.z) continue;
+            const glm::vec3 d = rest[v] - middle;
+            if (glm::dot(d, d) >= best) continue;
+            best = glm::dot(d, d);
+            out[i] = v;
+        }
+    });
+    return out;
+}
+
 }  // namespace
 
 float extentOf(std::span<const glm::vec3> positions) {
@@ -195,8 +219,8 @@ BlockerLevels makeBlockerLevels(const WeldedMesh& mesh, std::span<const glm::vec
     out.levels.push_back({mesh.triangles, std::vector<float>(rest.size(), 0), {}, {}});
     const std::vector<glm::vec3> normals =
         vertexNormals(mesh.triangles, cornersOfVertices(mesh.triangles, rest.size()), rest);
+    const std::vector<std::uint32_t> parts = connectedParts(mesh.triangles, rest.size());
     if (options.coarse > 0 && options.coarse < fine) {
-        const std::vector<std::uint32_t> parts = connectedParts(mesh.triangles, rest.size());
         const double steps =
             std::max(1.0, std::round(std::log(static_cast<double>(fine) / static_cast<double>(options.coarse)) /
                                      std::log(options.ratio)));
@@ -230,6 +254,13 @@ BlockerLevels makeBlockerLevels(const WeldedMesh& mesh, std::span<const glm::vec
                 if (std::find(patch, patch + c, patch[c]) == patch + c)
                     out.patches[patch[c]].triangles[level].push_back(t);
         }
+    for (BlockerLevels::Patch& patch : out.patches) patch.nearest.resize(out.levels.size());
+    for (std::size_t level = 1; level < out.levels.size(); ++level) {
+        const std::vector<std::uint32_t> nearest = nearestVertices(out.levels[level], rest, parts);
+        for (BlockerLevels::Patch& patch : out.patches)
+            for (const std::uint32_t t : patch.triangles[level])
+                if (nearest[t] != kNoVertex) patch.nearest[level].emplace_back(nearest[t], t);
+    }
     for (std::size_t level = 1; level < out.levels.size(); ++level)
         out.levels[level].restError = restErrors(out, level, rest, extentOf(rest));
     return out;

@@ -29,6 +29,9 @@ struct BlockerLevels {
     struct Patch {
         std::vector<std::uint32_t> vertices;                ///< of the mesh
         std::vector<std::vector<std::uint32_t>> triangles;  ///< [level], the last its own triangle
+        /// [level] (vertex, triangle): what tells how far off a triangle is that stands for no vertex, the vertex
+        /// nearest to its middle at rest.
+        std::vector<std::vector<glm::uvec2>> nearest;
     };
     std::vector<Patch> patches;
 

@@ -63,6 +63,26 @@ MovingLevels::MovingLevels(BlockerLevels levels, std::size_t vertices) : levels_
         all.erase(std::unique(all.begin(), all.end()), all.end());
         patchPush_.push_back(push);
     }
+    joined_.resize(patches().size());
+    for (std::uint32_t p = 0; p < joined_.size(); ++p) joined_[p].push_back(p);
+    const auto join = [&](std::uint32_t a, std::uint32_t b) {
+        if (a == b) return;
+        joined_[a].push_back(b);
+        joined_[b].push_back(a);
+    };
+    for (std::size_t l = 0; levelCount() > 1 && l + 1 < levelCount(); ++l) {
+        const BlockerLevels::Level& level = levels_.levels[l];
+        for (const glm::uvec3& t : level.triangles)
+            for (int c = 0; c < 3; ++c) join(coarsestOf(t[c]), coarsestOf(t[(c + 1) % 3]));
+        for (std::uint32_t v = 0; l > 0 && v < vertices; ++v)
+            for (int c = 0; c < 3; ++c) join(coarsestOf(v), coarsestOf(level.triangles[level.triangleOf[v]][c]));
+    }
+    for (std::uint32_t p = 0; levelCount() > 1 && p < joined_.size(); ++p)
+        for (int c = 0; c < 3; ++c) join(p, coarsestOf(levels_.levels.back().triangles[p][c]));
+    for (std::vector<std::uint32_t>& some : joined_) {
+        std::sort(some.begin(), some.end());
+        some.erase(std::unique(some.begin(), some.end()), some.end());
+    }
 }
 
 void MovingLevels::placePatch(std::span<const glm::vec3> positions, std::size_t p, FrameBlockers& out) const {
@@ -83,6 +103,8 @@ void MovingLevels::placePatch(std::span<const glm::vec3> positions, std::size_t 
         float off = level.restError[p];
         for (const std::uint32_t v : patch.vertices)
             off = std::max(off, offPlane(out.rows[firstRow_[l] + level.triangleOf[v]], positions[v]));
+        for (const glm::uvec2& pair : patch.nearest[l])
+            off = std::max(off, offPlane(out.rows[firstRow_[l] + pair.y], positions[pair.x]));
         columns.off[l][p] = off;
     }
 }

@@ -27,6 +27,8 @@ public:
     std::size_t levelCount() const { return levels_.levels.size(); }
     std::size_t coarsestTriangles() const { return levels_.levels.back().triangles.size(); }
     std::uint32_t coarsestOf(std::uint32_t vertex) const { return levels_.levels.back().triangleOf[vertex]; }
+    /// The patch and those that have some triangle of some level together with it, or one that stands for both.
+    const std::vector<std::uint32_t>& joined(std::uint32_t patch) const { return joined_[patch]; }
     std::uint32_t firstRow(std::size_t level) const { return firstRow_[level]; }
     std::size_t rowCount() const { return rowCount_; }
 
@@ -44,6 +46,7 @@ private:
     std::vector<Part> vertexParts_, rowParts_;              ///< what a thread does at a time
     std::vector<std::vector<std::uint32_t>> patchCorners_;  ///< [patch] vertices of all its triangles
     std::vector<float> patchPush_;                          ///< [patch] the longest push of one of them
+    std::vector<std::vector<std::uint32_t>> joined_;
     std::size_t rowCount_ = 0, pushedCount_ = 0;
 };
 

@@ -146,7 +146,8 @@ void SelfTransfer::State::fitAngles(std::span<const float> atRest) {
             angles[g] *= kDarkAngle;
 }
 
-/// The triangles of all vertices within the rings.
+/// The triangles of all vertices within the rings, and the patches that a triangle of some level joins with theirs: no
+/// coarse one lies over the group.
 void SelfTransfer::State::findNear() {
     near.resize(groups.size());
     nearPatches.assign(groups.size(), std::vector<std::uint8_t>(levels.patches().size(), 0));
@@ -156,7 +157,7 @@ void SelfTransfer::State::findNear() {
         for (int ring = 0; ring <= options.rings; ++ring) {
             near[g].clear();
             for (const std::uint32_t v : reached) {
-                nearPatches[g][levels.coarsestOf(v)] = 1;
+                for (const std::uint32_t patch : levels.joined(levels.coarsestOf(v))) nearPatches[g][patch] = 1;
                 for (std::uint32_t i = corners.first[v]; i < corners.first[v + 1]; ++i)
                     near[g].push_back(corners.order[i] / 3);
             }

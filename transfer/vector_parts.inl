@@ -108,5 +108,10 @@ struct Columns {
     Floats x, y, z;
 };
 NACRE_INLINE Floats dot(const glm::vec3& a, const Columns& b) { return splat(a.x) * b.x + splat(a.y) * b.y + splat(a.z) * b.z; }
+NACRE_INLINE Floats dot(const Columns& a, const Columns& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
+NACRE_INLINE Columns cross(const Columns& a, const Columns& b) {
+    return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+}
+NACRE_INLINE Columns operator-(const Columns& a, const Columns& b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
 NACRE_INLINE Columns operator-(const Columns& a, const glm::vec3& b) { return {a.x - splat(b.x), a.y - splat(b.y), a.z - splat(b.z)}; }
 NACRE_INLINE Floats lengthOf(const Columns& v) { return root(v.x * v.x + v.y * v.y + v.z * v.z); }
