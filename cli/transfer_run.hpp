@@ -24,15 +24,26 @@ struct TransferRun {
     BlockingSides sides = BlockingSides::Auto;
 };
 
+/// Phong's lobe for one viewer.
+struct GlossPlan {
+    double exponent = 0, specular = 0.5;
+    std::optional<Vec3> eye{};  ///< none: where `nacre render` looks from, cameraSeeing all frames
+};
+
 struct TransferPlan {
     int first = 0, end = 0;  ///< frames first … end − 1
     SelfTransferOptions options;
+    std::optional<GlossPlan> gloss{};
     std::optional<int> lut{};  ///< by PaperMethod with this table, and rings, coarse, sides and threads of the options
 };
 
 /// \throws nacre::Error naming the animation when no frame has finite positions
 TransferRun runTransfer(const AnimatedMesh& animation, const TransferPlan& plan, const std::string& name,
                         const Progress& progress);
+
+/// A frame's truth by rays, with the recording's gloss: [vertex][coefficients], 0 for vertices without a normal.
+std::vector<double> tracedVectors(const TransferRecording& recording, const TransferRecording::Block& block,
+                                  std::size_t rays);
 
 struct TransferMeasure {
     TransferError error;
