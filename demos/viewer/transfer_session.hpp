@@ -11,10 +11,10 @@
 namespace nacre {
 
 struct TransferSessionOptions {
-    std::string file;                       ///< what nacre transfer wrote; live: what loadMotion takes
-    bool live = false;                      ///< transfer is computed for each frame shown
-    std::vector<std::string> environments;  ///< radiance maps; none: radiance 1 from everywhere
-    int samples = 1;                        ///< per pixel
+    std::string file{};                       ///< what nacre transfer wrote; live: what loadMotion takes
+    bool live = false;                        ///< transfer is computed for each frame shown
+    std::vector<std::string> environments{};  ///< radiance maps; none: radiance 1 from everywhere
+    int samples = 1;                          ///< per pixel
 };
 
 /// The context that is current in the constructor must be current in every call.

@@ -48,9 +48,9 @@ double middle(TransferPlayer& player, std::size_t frame, const PlayedLight& ligh
 TEST(TransferPlayer, BlendsAndTurnsTheLight) {
     test::context();
     TransferPlayer player(square());
-    EXPECT_FLOAT_EQ(middle(player, 0, twoLights(1, 0)), 1);
-    EXPECT_FLOAT_EQ(middle(player, 1, twoLights(0.5, 0.25)), 1);
-    EXPECT_FLOAT_EQ(middle(player, 1, twoLights(0.5, 1)), 2.5);
+    EXPECT_DOUBLE_EQ(middle(player, 0, twoLights(1, 0)), 1);
+    EXPECT_DOUBLE_EQ(middle(player, 1, twoLights(0.5, 0.25)), 1);
+    EXPECT_DOUBLE_EQ(middle(player, 1, twoLights(0.5, 1)), 2.5);
     EXPECT_NEAR(middle(player, 2, twoLights(1, 1)), 0, 1e-6);  // the light leans to z, the transfer to x
     EXPECT_NEAR(middle(player, 2, twoLights(1, 1, kPi / 2)), 1.5, 1e-5);
     EXPECT_NEAR(middle(player, 2, twoLights(1, 1, -kPi / 2)), -1.5, 1e-5);
