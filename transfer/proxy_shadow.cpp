@@ -6,7 +6,6 @@
 
 #include "core/error.hpp"
 #include "core/parallel.hpp"
-#include "transfer/blocker_levels.hpp"
 
 namespace nacre {
 namespace {
@@ -35,22 +34,19 @@ LightCoefficients turned(const HarmonicRotation& rotation, const LightCoefficien
 }  // namespace
 
 ShadowProxy::ShadowProxy(const WeldedMesh& mesh, std::span<const glm::vec3> rest, std::size_t triangles) {
-    const BlockerLevels levels = makeBlockerLevels(mesh, rest, {.coarse = triangles});
-    triangles_ = levels.levels.back().triangles;
-    push_ = levels.levels.back().push;
-    corners_ = cornersOfVertices(triangles_, mesh.vertexCount());
+    level_ = makeBlockerLevels(mesh, rest, {.coarse = triangles}).levels.back();
+    corners_ = cornersOfVertices(level_.triangles, mesh.vertexCount());
 }
 
 void ShadowProxy::move(std::span<const glm::vec3> positions) {
-    const std::vector<glm::vec3> pushed =
-        pushedPositions({triangles_, push_, {}}, corners_, positions, extentOf(positions));
+    const std::vector<glm::vec3> pushed = pushedPositions(level_, corners_, positions, extentOf(positions));
     blockers_.clear();
     centre_ = Vec3(0);
-    for (const glm::uvec3& t : triangles_) {
+    for (const glm::uvec3& t : level_.triangles) {
         blockers_.push_back(blockerRow(pushed[t.x], pushed[t.y], pushed[t.z]));
         centre_ += (Vec3(pushed[t.x]) + Vec3(pushed[t.y]) + Vec3(pushed[t.z])) / 3.0;
     }
-    centre_ /= static_cast<double>(std::max<std::size_t>(triangles_.size(), 1));
+    centre_ /= static_cast<double>(std::max<std::size_t>(level_.triangles.size(), 1));
 }
 
 LightProjector::LightProjector(int order, int mask) : rotation_(order), mask_(mask) {

@@ -2,8 +2,8 @@
 // section 4.1), so that each object's own transfer stays what it is.
 #pragma once
 
+#include "transfer/blocker_levels.hpp"
 #include "transfer/exitant_radiance.hpp"
-#include "transfer/surface.hpp"
 
 namespace nacre {
 
@@ -20,8 +20,7 @@ public:
     Vec3 centre() const { return centre_; }
 
 private:
-    std::vector<glm::uvec3> triangles_;
-    std::vector<float> push_;
+    BlockerLevels::Level level_;
     CornersOfVertices corners_;
     std::vector<BlockerRow> blockers_;
     Vec3 centre_{0};
