@@ -18,6 +18,9 @@ struct SceneShot {
     double time = 0;
 };
 
+/// Means of n × n pixels. \param fine  RGB, n times as large
+Image shrunk(const Image& fine, int n);
+
 /// Draws with the renderer's switches and reads back.
 Image shoot(SceneRenderer& renderer, const SceneShot& shot);
 
