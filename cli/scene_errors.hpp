@@ -19,6 +19,9 @@ struct SceneShot {
     bool interreflection = false;  ///< the reference has light between meshes
 };
 
+/// Means of n × n pixels. \param fine  RGB, n times as large
+Image shrunk(const Image& fine, int n);
+
 /// Draws with the renderer's switches and reads back.
 Image shoot(SceneRenderer& renderer, const SceneShot& shot);
 

@@ -2,27 +2,25 @@
 #include <fmt/format.h>
 
 #include <charconv>
-#include <filesystem>
 #include <memory>
 #include <nlohmann/json.hpp>
 
 #include "cli/numbers.hpp"
 #include "cli/output_file.hpp"
+#include "cli/picture_output.hpp"
+#include "cli/render_transfer.hpp"
 #include "cli/scene_errors.hpp"
+#include "cli/scene_light.hpp"
 #include "cli/terminal.hpp"
 #include "cli/verb.hpp"
 #include "core/error.hpp"
-#include "reference/albedo.hpp"
-#include "reference/scene_rays.hpp"
 #include "shading/context.hpp"
 #include "shading/image_output.hpp"
-#include "shading/multipass/radiosity.hpp"
 #include "shading/scene_file.hpp"
 
 namespace nacre::cli {
 namespace {
 
-namespace fs = std::filesystem;
 using nlohmann::json;
 
 struct Settings {
@@ -32,27 +30,27 @@ struct Settings {
     int rays = 4;
     SceneSwitches switches;
     bool reference = false, shares = false, asJson = false;
+    TransferPictures transfer;  ///< when the scene is a transfer file
+    std::string weights;
+    std::string sceneFlag, transferFlag;  ///< the first option given that only scenes have, only transfer files
 };
 
-std::string endingOf(const std::string& output) {
-    std::string ending = fs::path(output).extension().string();
-    for (char& c : ending) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-    if (ending != ".exr" && ending != ".png")
-        throw UsageError(fmt::format("-o: expected a name that ends in .exr or .png, found '{}'", output));
-    return ending;
+/// An option of one kind of file alone: notes in `flagGiven` that it was given.
+std::function<void(const std::string&)> only(std::string& flagGiven, const char* flag,
+                                             std::function<void(const std::string&)> take) {
+    return [&flagGiven, flag, take = std::move(take)](const std::string& text) {
+        if (flagGiven.empty()) flagGiven = flag;
+        take(text);
+    };
 }
 
-/// NAME.exr -> NAME-reference.exr
-std::string beside(const std::string& output, const char* what, const std::string& ending) {
-    const fs::path path(output);
-    return (path.parent_path() / (path.stem().string() + "-" + what + ending)).string();
-}
-
-void write(const Image& image, const std::string& output, double white) {
-    if (endingOf(output) == ".exr")
-        writeExr(image, output);
-    else
-        writePng(image, output, {white});
+/// "AZIMUTH,ELEVATION"
+Vec2 viewOf(const std::string& text) {
+    double v[2];
+    if (!parseNumbers(text, v) || !std::isfinite(v[0]) || !(std::abs(v[1]) < 90))
+        throw UsageError(
+            fmt::format("expected AZIMUTH,ELEVATION in degrees, the latter between -90 and 90, found '{}'", text));
+    return {v[0], v[1]};
 }
 
 void takeSize(SceneShot& shot, const std::string& text) {
@@ -69,30 +67,6 @@ void takeSize(SceneShot& shot, const std::string& text) {
     shot.height = number(std::string_view(text).substr(x == std::string::npos ? text.size() : x + 1));
 }
 
-ShadowMethod shadowMethod(const std::string& text) {
-    if (text == "maps") return ShadowMethod::Maps;
-    if (text == "volumes") return ShadowMethod::Volumes;
-    throw UsageError(fmt::format("--shadows: expected maps or volumes, found '{}'", text));
-}
-
-SoftShadows softShadows(const std::string& text) {
-    if (text == "regenerated") return SoftShadows::Regenerated;
-    if (text == "pivot") return SoftShadows::Pivot;
-    if (text == "levels") return SoftShadows::Levels;
-    throw UsageError(fmt::format("--soft: expected regenerated, pivot or levels, found '{}'", text));
-}
-
-json volumesJson(const ShadowVolumeCounts& c) {
-    return {{"made", c.made},
-            {"bytes", c.bytes},
-            {"point_bytes", c.pointBytes},
-            {"bytes_of_a_volume_a_polygon", c.bytesAPolygon}};
-}
-
-json differenceJson(const ImageDifference& d) {
-    return {{"psnr", d.psnrSrgb}, {"psnr_linear", d.psnrLinear}, {"relative_rmse", d.relative}, {"max_abs", d.maxAbs}};
-}
-
 json toJson(const SceneErrors& e) {
     json out = {{"white", e.white},
                 {"all", differenceJson(e.all)},
@@ -103,21 +77,6 @@ json toJson(const SceneErrors& e) {
         out["shares"].push_back(
             {{"name", s.name}, {"psnr_off", s.psnrOff}, {"psnr_without", s.psnrWithout}, {"share", s.share}});
     return out;
-}
-
-/// Light between the scene's meshes: albedos of the unbaked BRDFs at 45 degrees, visibility by rays.
-IndirectLight solveRadiosity(const SceneDescription& scene, double time) {
-    std::vector<Rgb> albedos;
-    for (const MaterialTruth& m : openTruths(scene).materials)
-        albedos.push_back(m.brdf ? glm::min(directionalAlbedo(m.brdf, {std::sqrt(0.5), 0, std::sqrt(0.5)}), Rgb(0.99))
-                                 : Rgb(0));
-    const std::vector<glm::dmat4> nodes = nodeTransforms(scene, time);
-    const SceneRays rays(scene, nodes);
-    const Visible visible = [&](const Vec3& a, const Vec3& b) {
-        const double length = glm::length(b - a);
-        return !rays.shadowed(a, (b - a) / length, length);
-    };
-    return sceneIndirectLight(scene, time, albedos, visible);
 }
 
 std::string errorText(const SceneErrors& e) {
@@ -134,8 +93,22 @@ std::string errorText(const SceneErrors& e) {
     return out;
 }
 
+void runTransferFile(const Context& context, const Settings& s) {
+    if (!s.sceneFlag.empty())
+        throw UsageError(fmt::format("{}: expected a scene, found the transfer file {}", s.sceneFlag, s.scene));
+    TransferPictures p = s.transfer;
+    p.file = s.scene, p.output = s.output, p.shot = s.shot, p.reference = s.reference, p.asJson = s.asJson;
+    p.light.white = s.white;
+    takeWeights(p.light, s.weights);
+    renderTransfer(context, p);
+}
+
 void runRender(const Context& context, const Settings& s) {
-    const std::string ending = endingOf(s.output);
+    if (isTransferFile(s.scene)) return runTransferFile(context, s);
+    if (!s.transferFlag.empty())
+        throw UsageError(
+            fmt::format("{}: expected a file that nacre transfer wrote, found {}", s.transferFlag, s.scene));
+    const std::string ending = pictureEnding(s.output);
     const Progress progress = terminalProgress(context.quiet);
     report(progress, "reading " + s.scene, 0);
     SceneOptions reading;
@@ -148,10 +121,7 @@ void runRender(const Context& context, const Settings& s) {
     json radiosity;
     if (s.shot.interreflection) {
         report(progress, "radiosity", 0);
-        const Stopwatch solving;
-        const IndirectLight light = solveRadiosity(renderer.scene(), s.shot.time);
-        renderer.setIndirectLight(light.radiance);
-        radiosity = {{"shots", light.shots}, {"left", light.left}, {"seconds", solving.seconds()}};
+        radiosity = addRadiosity(renderer, s.shot.time);
     }
     report(progress, "drawing", 0);
     const Stopwatch watch;
@@ -171,68 +141,117 @@ void runRender(const Context& context, const Settings& s) {
     double white = s.white > 0 ? s.white : pictureWhite(picture);
     std::string text = fmt::format("{}: {} x {} pixels of {} samples, {} programs\n", s.output, s.shot.width,
                                    s.shot.height, s.shot.samples * s.shot.samples, renderer.programs().size());
-    write(picture, s.output, white);  // before the trace: what can't be written fails now
+    writePicture(picture, s.output, white);  // before the trace: what can't be written fails now
     if (s.reference || s.shares) {
         const SceneErrors errors = measureScene(renderer, picture, s.shot, s.rays, s.shares, progress);
         if (s.white == 0) white = errors.white;
-        write(errors.reference, beside(s.output, "reference", ending), white);
-        writePng(differenceImage(picture, errors.reference, errors.white, 0.2), beside(s.output, "difference", ".png"));
+        writePicture(errors.reference, besideName(s.output, "reference", ending), white);
+        writePng(differenceImage(picture, errors.reference, errors.white, 0.2),
+                 besideName(s.output, "difference", ".png"));
         data["errors"] = toJson(errors);
         text += errorText(errors);
         endProgress();
         for (const std::string& note : errors.notes) tell(note);
     }
-    if (s.reference || s.shares) write(picture, s.output, white);  // both with one white
+    if (s.reference || s.shares) writePicture(picture, s.output, white);  // both with one white
     endProgress();
     putData(s.asJson ? data.dump(2) + "\n" : text);
+}
+
+constexpr const char* kDetails =
+    "Scenes: .json, .gltf, .glb, or a mesh file, which gets a camera and a light. EXR holds linear radiance, PNG "
+    "is\n"
+    "sRGB of radiance over a white, 1.5 times the 90th percentile (of the reference, when there is one).\n"
+    "With --reference the same scene is traced from the unbaked sources: OUT-reference beside OUT, and\n"
+    "OUT-difference.png, in which white stands for 0.2 in sRGB. PSNR is of sRGB values clamped to [0, 1]. A "
+    "second\n"
+    "figure is against a reference whose meshes also block the surrounding's light, which no pass here does.\n"
+    "With --shares each approximation is switched off alone: PSNR of the picture without it against the full\n"
+    "reference; PSNR of both without it (BRDF: the reference takes the baked one); and the share of the mean "
+    "square\n"
+    "error that goes with it.\n"
+    "A file of nacre transfer holds its mesh: its frames are drawn by their vertices' radiance (albedo 1, back faces\n"
+    "black) in the light of --env, turned and blended, with the first frame's white. With --reference the same\n"
+    "vertices' transfer comes from rays.\n"
+    "Example: a second of the cloth while the light turns a quarter:\n"
+    "  nacre transfer cloth -o cloth.tv --frames 0:30\n"
+    "  nacre render cloth.tv -o cloth_###.png --env city.hdr --turn 90";
+
+std::vector<Option> sceneOptions(const std::shared_ptr<Settings>& s) {
+    return {
+        {"--time", "S", "Seconds into a scene's animation (default 0)",
+         only(s->sceneFlag, "--time", finiteInto(s->shot.time))},
+        {"--rays", "N", "Of a scene's reference: N x N rays a pixel (default 4)",
+         only(s->sceneFlag, "--rays", integerInto([s](long long v) { s->rays = static_cast<int>(v); }, 1, 16))},
+        {"--shadows", "METHOD", "Of lights that have shadows: maps (default) or volumes, which are hard and exact",
+         only(s->sceneFlag, "--shadows",
+              [s](const std::string& text) { s->switches.shadowMethod = shadowMethodOf(text); })},
+        {"--light-points", "N", "With volumes: points of a light's area, 1 to 63 (default 16)",
+         only(s->sceneFlag, "--light-points",
+              integerInto([s](long long v) { s->switches.lightPoints = static_cast<int>(v); }, 1, 63))},
+        {"--soft", "METHOD",
+         "With volumes, of a light's area: regenerated (default), pivot (volumes of its middle swept from each\n"
+         "point) or levels (the middle's light dimmed by the count)",
+         only(s->sceneFlag, "--soft", [s](const std::string& text) { s->switches.softShadows = softShadowsOf(text); })},
+        {"--radiosity", "", "Add light that bounced between meshes, as colours of their vertices; the reference too",
+         only(s->sceneFlag, "--radiosity", into(s->shot.interreflection))},
+        {"--shares", "", "Each approximation's share of a scene's error; implies --reference",
+         only(s->sceneFlag, "--shares", into(s->shares))}};
+}
+
+std::vector<Option> transferOptions(const std::shared_ptr<Settings>& s) {
+    TransferPictures& t = s->transfer;
+    const auto own = [s](const char* flag, const char* value, const char* summary,
+                         std::function<void(const std::string&)> take) {
+        return Option{flag, value, summary, only(s->transferFlag, flag, std::move(take))};
+    };
+    Option environments =
+        own("--env", "FILE", "Radiance map that lights; may be repeated, and is blended (default: white)",
+            [&t](const std::string& given) { t.light.files.push_back(given); });
+    environments.repeats = true;
+    return {
+        own("--frame", "N", "Frame to draw (default the first)",
+            integerInto(
+                [&t](long long v) {
+                    t.frames = {static_cast<int>(v), static_cast<int>(v) + 1};
+                },
+                0, 1 << 30)),
+        own("--frames", "A:B", "Frames A to B - 1, one picture each: OUT has a row of # for the number",
+            [&t](const std::string& given) { t.frames = parseFrames(given); }),
+        environments,
+        own("--weights", "W,W,...", "Of each --env (default equal, of sum 1)", into(s->weights)),
+        own("--turned", "DEGREES", "The light's turn about y, from +z towards +x (default 0)", finiteInto(t.fromDeg)),
+        own("--turn", "DEGREES", "And so far more in a second (default 0)", finiteInto(t.light.turnDeg)),
+        own("--view", "AZ,EL", "Seen from there, degrees from +z towards +x and up (default 19.3,20.7)",
+            [&t](const std::string& given) { t.viewDeg = viewOf(given); }),
+        own("--vertex-rays", "N", "Of the reference, a vertex (default 1024)",
+            integerInto([&t](long long v) { t.rays = static_cast<std::size_t>(v); }, 1, 1 << 24))};
+}
+
+std::vector<Option> options(const std::shared_ptr<Settings>& s) {
+    std::vector<Option> out = {
+        {"scene", "FILE", "The scene, or a file that nacre transfer wrote", into(s->scene), true},
+        {"-o,--output", "OUT", "The picture to write, .exr or .png", into(s->output), true},
+        {"--size", "WxH", "Pixels (default 512x512)", [s](const std::string& text) { takeSize(s->shot, text); }},
+        {"--samples", "N", "N x N shaded samples a pixel (default 2)",
+         integerInto([s](long long v) { s->shot.samples = static_cast<int>(v); }, 1, 8)},
+        {"--white", "W", "Radiance shown as white in PNG", positiveInto([s](double v) { s->white = v; })},
+        {"--reference", "", "Trace the same, and print the error", into(s->reference)}};
+    for (Option& option : sceneOptions(s)) out.push_back(std::move(option));
+    for (Option& option : transferOptions(s)) out.push_back(std::move(option));
+    out.push_back({"--json", "", "One JSON object on standard output", into(s->asJson)});
+    return out;
 }
 
 }  // namespace
 
 Verb renderVerb(Context& context) {
     const auto s = std::make_shared<Settings>();
-    Verb verb{"render", "Draw a scene, and the same scene ray-traced, with the error between both", "", {}, {}};
-    verb.details =
-        "Scenes: .json, .gltf, .glb, or a mesh file, which gets a camera and a light. EXR holds linear radiance, PNG "
-        "is\n"
-        "sRGB of radiance over a white, 1.5 times the 90th percentile (of the reference, when there is one).\n"
-        "With --reference the same scene is traced from the unbaked sources: OUT-reference beside OUT, and\n"
-        "OUT-difference.png, in which white stands for 0.2 in sRGB. PSNR is of sRGB values clamped to [0, 1]. A "
-        "second\n"
-        "figure is against a reference whose meshes also block the surrounding's light, which no pass here does.\n"
-        "With --shares each approximation is switched off alone: PSNR of the picture without it against the full\n"
-        "reference; PSNR of both without it (BRDF: the reference takes the baked one); and the share of the mean "
-        "square\n"
-        "error that goes with it.";
-    verb.options = {
-        {"scene", "FILE", "The scene", into(s->scene), true},
-        {"-o,--output", "OUT", "The picture to write, .exr or .png", into(s->output), true},
-        {"--size", "WxH", "Pixels (default 512x512)", [s](const std::string& text) { takeSize(s->shot, text); }},
-        {"--samples", "N", "N x N shaded samples a pixel (default 2)",
-         integerInto([s](long long v) { s->shot.samples = static_cast<int>(v); }, 1, 8)},
-        {"--time", "S", "Seconds into the animation (default 0)",
-         [s](const std::string& text) {
-             double v[1];
-             if (!parseNumbers(text, v) || !std::isfinite(v[0]))
-                 throw UsageError(fmt::format("expected a finite number, found '{}'", text));
-             s->shot.time = v[0];
-         }},
-        {"--white", "W", "Radiance shown as white in PNG", positiveInto([s](double v) { s->white = v; })},
-        {"--shadows", "METHOD", "Of lights that have shadows: maps (default) or volumes, which are hard and exact",
-         [s](const std::string& text) { s->switches.shadowMethod = shadowMethod(text); }},
-        {"--light-points", "N", "With volumes: points of a light's area, 1 to 63 (default 16)",
-         integerInto([s](long long v) { s->switches.lightPoints = static_cast<int>(v); }, 1, 63)},
-        {"--soft", "METHOD",
-         "With volumes, of a light's area: regenerated (default), pivot (volumes of its middle swept from each\n"
-         "point) or levels (the middle's light dimmed by the count)",
-         [s](const std::string& text) { s->switches.softShadows = softShadows(text); }},
-        {"--radiosity", "", "Add light that bounced between meshes, as colours of their vertices; in the reference too",
-         into(s->shot.interreflection)},
-        {"--reference", "", "Trace the same scene, and print the error", into(s->reference)},
-        {"--rays", "N", "Of the reference: N x N rays a pixel (default 4)",
-         integerInto([s](long long v) { s->rays = static_cast<int>(v); }, 1, 16)},
-        {"--shares", "", "Each approximation's share of the error; implies --reference", into(s->shares)},
-        {"--json", "", "One JSON object on standard output", into(s->asJson)}};
+    Verb verb{"render",
+              "Draw a scene, or the frames of a transfer file, beside the same by rays, with the error between both",
+              kDetails,
+              options(s),
+              {}};
     verb.run = [s, &context] { runRender(context, *s); };
     return verb;
 }

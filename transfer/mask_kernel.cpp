@@ -28,7 +28,7 @@ MaskKernel kernelOf([[maybe_unused]] VectorSet set) {
 
 BlockerRow blockerRow(const glm::vec3& a, const glm::vec3& b, const glm::vec3& c) {
     const glm::vec3 n = glm::cross(b - a, c - a);
-    return {{a.x, a.y, a.z, b.x, b.y, b.z, c.x, c.y, c.z}, {n.x, n.y, n.z}, glm::dot(n, a), glm::length(n), {}};
+    return {{a.x, a.y, a.z, b.x, b.y, b.z, c.x, c.y, c.z}, {n.x, n.y, n.z}, glm::dot(n, a), glm::length(n), 0, 0};
 }
 
 Receiver receiverAt(const glm::vec3& point, const glm::vec3& normal) {
@@ -67,11 +67,16 @@ VectorSet chosenSet(VectorSet set) {
 MaskKernel maskKernel(int size, VectorSet set) {
     set = chosenSet(set);
     switch (size) {
-        case 16: return kernelOf<16>(set);
-        case 32: return kernelOf<32>(set);
-        case 64: return kernelOf<64>(set);
-        case 128: return kernelOf<128>(set);
-        default: throw std::invalid_argument("mask: expected a size of 16, 32, 64 or 128, found " + std::to_string(size));
+        case 16:
+            return kernelOf<16>(set);
+        case 32:
+            return kernelOf<32>(set);
+        case 64:
+            return kernelOf<64>(set);
+        case 128:
+            return kernelOf<128>(set);
+        default:
+            throw std::invalid_argument("mask: expected a size of 16, 32, 64 or 128, found " + std::to_string(size));
     }
 }
 

@@ -10,12 +10,14 @@
 namespace nacre {
 
 /// A triangle as the kernels read it. Rows of all levels of a frame lie one behind the other.
+inline constexpr float kFrontSide = 0, kInnerSide = 1, kAnySide = 2;  ///< kInnerSide: the back where it is seen
 struct alignas(64) BlockerRow {
     float corners[9] = {};
     float normal[3] = {};  ///< outward, as long as twice the area
     float offset = 0;      ///< normal · corner
     float normalLength = 0;
-    float room[2] = {};
+    float sides = 0;  ///< kFrontSide, kInnerSide or kAnySide: which block
+    float room = 0;
 };
 BlockerRow blockerRow(const glm::vec3& a, const glm::vec3& b, const glm::vec3& c);
 
@@ -40,14 +42,16 @@ struct MaskKernel {
     /// \param mask  [(N + 31)/32][N] words
     void (*draw)(const MaskRows& rows, const BlockerRow* blockers, const Receiver& receiver, bool bothSides,
                  std::uint32_t* indices, std::size_t count, std::uint32_t* mask);
-    /// Σ over set bits, in the receiver's frame: [groups][cos, sin][16] by pair (l, m). For ones everywhere the integral
-    /// of y_lm cosθ/π over the hemisphere.
+    /// Σ over set bits, in the receiver's frame: [groups][cos, sin][16] by pair (l, m). For ones everywhere the
+    /// integral of y_lm cosθ/π over the hemisphere.
     void (*integrate)(const MaskIntegrals& tables, const std::uint32_t* mask, float* sums);
 };
 
 /// \param size  of the mask: 16, 32, 64 or 128 \throws std::invalid_argument also when the processor lacks the set
 MaskKernel maskKernel(int size, VectorSet set = VectorSet::Widest);
 
-inline std::size_t maskWords(int size) { return static_cast<std::size_t>(size) * static_cast<std::size_t>((size + 31) / 32); }
+inline std::size_t maskWords(int size) {
+    return static_cast<std::size_t>(size) * static_cast<std::size_t>((size + 31) / 32);
+}
 
 }  // namespace nacre

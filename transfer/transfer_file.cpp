@@ -22,8 +22,8 @@ static_assert(std::endian::native == std::endian::little, "arrays are written an
 namespace {
 
 constexpr std::string_view kMagic = "NACRE_TV";
-constexpr std::size_t kFixed = kMagic.size() + 8;                ///< bytes before the header
-constexpr std::uint64_t kMaxBytes = std::uint64_t{1} << 36;      // of a file: more than memory holds
+constexpr std::size_t kFixed = kMagic.size() + 8;            ///< bytes before the header
+constexpr std::uint64_t kMaxBytes = std::uint64_t{1} << 36;  // of a file: more than memory holds
 constexpr int kMaxCount = std::numeric_limits<int>::max();
 
 /// Empty, or what is wrong: the rules for what is written and what was read.
@@ -33,11 +33,17 @@ std::string problemOf(const TransferRecording& r) {
         return fmt::format("expected an order of 0 to {}, found {}", kMaxTransferOrder, r.order);
     if (!std::isfinite(r.framesPerSecond) || r.framesPerSecond <= 0)
         return fmt::format("expected frames per second > 0, found {}", r.framesPerSecond);
+    if (r.gloss && !(std::isfinite(r.gloss->exponent) && r.gloss->exponent >= 0 && r.gloss->specular >= 0 &&
+                     r.gloss->specular <= 1 && isFinite(r.gloss->eye)))
+        return fmt::format(
+            "expected an exponent >= 0, a specular share of 0 to 1 and a finite eye, found {}, {} and [{}, {}, {}]",
+            r.gloss->exponent, r.gloss->specular, r.gloss->eye.x, r.gloss->eye.y, r.gloss->eye.z);
     if (r.blocks.empty()) return "expected at least one block, found none";
     for (std::size_t t = 0; t < r.triangles.size(); ++t)
         for (int c = 0; c < 3; ++c)
             if (r.triangles[t][c] >= vertices)
-                return fmt::format("expected vertices below {}, found {} in triangle {}", vertices, r.triangles[t][c], t);
+                return fmt::format("expected vertices below {}, found {} in triangle {}", vertices, r.triangles[t][c],
+                                   t);
     for (std::size_t v = 0; v < r.weldOf.size(); ++v)
         if (r.weldOf[v] >= vertices)
             return fmt::format("expected vertices below {}, found {} for source vertex {}", vertices, r.weldOf[v], v);
@@ -54,8 +60,9 @@ std::string problemOf(const TransferRecording& r) {
         if (!used[b]) return fmt::format("expected a frame for each block, found none for block {}", b);
         const auto& [positions, coefficients] = r.blocks[b];
         if (positions.size() != vertices || coefficients.size() != vertices * r.coefficientCount())
-            return fmt::format("expected {} vertices of {} coefficients, found {} positions and {} coefficients in block {}",
-                               vertices, r.coefficientCount(), positions.size(), coefficients.size(), b);
+            return fmt::format(
+                "expected {} vertices of {} coefficients, found {} positions and {} coefficients in block {}", vertices,
+                r.coefficientCount(), positions.size(), coefficients.size(), b);
         const auto finite = [](float x) { return std::isfinite(x); };
         const auto place = std::find_if_not(positions.begin(), positions.end(), [&](const glm::vec3& p) {
             return finite(p.x) && finite(p.y) && finite(p.z);
@@ -85,6 +92,11 @@ json headerOf(const TransferRecording& r) {
         header["frames"].push_back(frame.number);
         header["block_of_frame"].push_back(frame.block);
     }
+    if (r.gloss) {
+        const Vec3& eye = r.gloss->eye;
+        header["glossy"] = {
+            {"exponent", r.gloss->exponent}, {"specular", r.gloss->specular}, {"eye", {eye.x, eye.y, eye.z}}};
+    }
     return header;
 }
 
@@ -109,7 +121,8 @@ struct Head {
     TransferRecording recording;
     std::size_t sourceVertices = 0, triangles = 0, vertices = 0, blocks = 0;
     std::uint64_t bodyBytes() const {  // below 2^31 each and 2^31 blocks of 2^31 vertices: too large for 64 bits only
-        const double block = static_cast<double>(vertices) * (12 + 4 * static_cast<double>(recording.coefficientCount()));
+        const double block =
+            static_cast<double>(vertices) * (12 + 4 * static_cast<double>(recording.coefficientCount()));
         if (static_cast<double>(blocks) * block > static_cast<double>(kMaxBytes)) return kMaxBytes;
         return 4 * sourceVertices + 12 * triangles + blocks * vertices * (12 + 4 * recording.coefficientCount());
     }
@@ -130,6 +143,9 @@ Head parseHead(json header, const std::string& name) {
                                  blocks = field.at("block_of_frame").items(numbers.size(), numbers.size());
     for (std::size_t f = 0; f < numbers.size(); ++f)
         r.frames.push_back({numbers[f].integer(0, kMaxCount), blocks[f].integer(0, kMaxCount)});
+    if (const auto gloss = field.find("glossy"))
+        r.gloss = RecordedGloss{gloss->at("exponent").number(0), gloss->at("specular").number(0, 1),
+                                gloss->at("eye").vector()};
     r.meta = std::move(header);
     return head;
 }
@@ -174,10 +190,12 @@ TransferRecording parseTransfer(std::span<const std::uint8_t> bytes, const std::
     Head head = parseHead(parseJson(text, name), name);
     const std::span<const std::uint8_t> body = bytes.subspan(kFixed + fixed[1]);
     if (body.size() != head.bodyBytes())
-        throw Error(fmt::format("{}: expected {} bytes behind the header, found {}", name, head.bodyBytes(), body.size()));
+        throw Error(
+            fmt::format("{}: expected {} bytes behind the header, found {}", name, head.bodyBytes(), body.size()));
     TransferRecording& r = head.recording;
     if (head.blocks > r.frames.size())
-        throw Error(fmt::format("{}: expected at most a block a frame, found {} for {}", name, head.blocks, r.frames.size()));
+        throw Error(
+            fmt::format("{}: expected at most a block a frame, found {} for {}", name, head.blocks, r.frames.size()));
     Cursor cursor(body);
     r.weldOf = cursor.take<std::uint32_t>(head.sourceVertices);
     r.triangles = cursor.take<glm::uvec3>(head.triangles);
