@@ -44,24 +44,6 @@ void sortUnique(std::vector<std::uint32_t>& numbers) {
     numbers.erase(std::unique(numbers.begin(), numbers.end()), numbers.end());
 }
 
-/// How far each vertex's connected part is from enclosing something: |Σ area vectors| / Σ areas, 0 for closed shells, 1
-/// for flat sheets.
-std::vector<float> openness(std::span<const glm::uvec3> triangles, std::span<const glm::vec3> positions) {
-    const std::vector<std::uint32_t> part = connectedParts(triangles, positions.size());
-    std::vector<glm::dvec3> sums(positions.size(), glm::dvec3(0));
-    std::vector<double> areas(positions.size(), 0);
-    for (const glm::uvec3& t : triangles) {
-        const glm::dvec3 a = positions[t.x],
-                         n = glm::cross(glm::dvec3(positions[t.y]) - a, glm::dvec3(positions[t.z]) - a);
-        sums[part[t.x]] += n;
-        areas[part[t.x]] += glm::length(n);
-    }
-    std::vector<float> out;
-    for (const std::uint32_t p : part)
-        out.push_back(areas[p] > 0 ? static_cast<float>(glm::length(sums[p]) / areas[p]) : 1.0f);
-    return out;
-}
-
 /// About the first vertex and with an extent of 1: far from the origin floats are coarse, and they end.
 std::vector<glm::vec3> normalized(std::span<const glm::vec3> given) {
     glm::dvec3 low(std::numeric_limits<double>::max()), high(-low);
@@ -85,14 +67,11 @@ struct SelfTransfer::State {
     CornersOfVertices corners;
     std::size_t mostCorners = 0;  ///< of a vertex
     MovingLevels levels;
+    BlockingParts parts;
     std::vector<std::vector<std::uint32_t>> groups;
     std::vector<std::vector<std::uint32_t>> near;        ///< [group] triangles of the mesh within the rings
     std::vector<std::vector<std::uint8_t>> nearPatches;  ///< [group][patch] of sheets, whose levels would lie over it
-    std::vector<std::uint8_t> sheets;                    ///< [vertex]
-    std::vector<std::uint8_t> inside;                    ///< [vertex] whether it sees backs of shells
-    std::vector<std::uint8_t> groupInside;               ///< [group] whether one of its vertices does
-    bool hasSheets = false;                              ///< parts that block by any side
-    bool hasShells = false;                              ///< parts whose backs block where they are seen
+    std::vector<std::uint8_t> groupInside;               ///< [group] whether its vertices see backs of shells
     std::vector<float> angles;                           ///< [group] lodAngle, less where little light gets to
     MaskKernel kernel;
     BlockerKernel blockerKernels;
@@ -107,8 +86,6 @@ struct SelfTransfer::State {
     void findNear();
     std::unique_ptr<FrameBlockers> takeSpare();
     void keepSpare(std::unique_ptr<FrameBlockers> blockers);
-    void chooseSides(std::span<const glm::vec3> rest);
-    void findInside(std::span<const float> withBacks, std::span<const float> withoutBacks);
     void makeGroups(std::span<const glm::vec3> rest, std::span<const std::uint8_t> dark);
     std::size_t listBlockers(const FrameBlockers& blockers, const GroupBounds& bounds, std::size_t group,
                              const BlockerSets& sets, Scratch& scratch) const;
@@ -125,6 +102,7 @@ SelfTransfer::State::State(WeldedMesh m, std::span<const glm::vec3> rest, const 
       options(o),
       corners(cornersOfVertices(mesh.triangles, mesh.vertexCount())),
       levels(makeBlockerLevels(mesh, rest, {o.coarse}), mesh.vertexCount()),
+      parts(blockingParts(mesh, rest, o.sides)),
       kernel(maskKernel(o.mask, o.vectors)),
       blockerKernels(blockerKernel(o.vectors)),
       rows(maskRows(o.mask)),
@@ -133,46 +111,10 @@ SelfTransfer::State::State(WeldedMesh m, std::span<const glm::vec3> rest, const 
       open(openTransfer(o.order)) {
     for (std::size_t v = 0; v < mesh.vertexCount(); ++v)
         mostCorners = std::max<std::size_t>(mostCorners, corners.first[v + 1] - corners.first[v]);
-    chooseSides(rest);
+    const bool inner = parts.hasShells || parts.sides == BlockingSides::Fine;
+    levels.setSides(inner ? kInnerSide : kFrontSide, kFrontSide, parts.sheets);
+    options.sides = parts.sides;
     makeGroups(rest, {});
-}
-
-/// Auto looks at each connected part: of sheets any side blocks; of shells with openings, or through which others pass,
-/// the backs do where findInside sees them.
-void SelfTransfer::State::chooseSides(std::span<const glm::vec3> rest) {
-    constexpr float kSheet = 0.2f;
-    const bool byParts = options.sides == BlockingSides::Auto && !mesh.closed;
-    sheets.assign(mesh.vertexCount(), options.sides == BlockingSides::Both);
-    const std::vector<float> partOpen = openness(mesh.triangles, rest);
-    for (std::size_t v = 0; byParts && v < partOpen.size(); ++v) sheets[v] = partOpen[v] > kSheet;
-    const auto inSheets = static_cast<std::size_t>(std::count(sheets.begin(), sheets.end(), 1));
-    hasSheets = inSheets > 0;
-    hasShells = byParts && inSheets < sheets.size();
-    const bool inner = hasShells || options.sides == BlockingSides::Fine;
-    levels.setSides(inner ? kInnerSide : kFrontSide, kFrontSide, sheets);
-    inside.assign(mesh.vertexCount(), inner);
-    if (options.sides == BlockingSides::Auto)
-        options.sides = mesh.closed                    ? BlockingSides::Front
-                        : 2 * inSheets > sheets.size() ? BlockingSides::Both
-                                                       : BlockingSides::Fine;
-}
-
-/// Where backs of shells change something at rest, and three rings about, they are drawn; elsewhere all are behind
-/// fronts.
-void SelfTransfer::State::findInside(std::span<const float> withBacks, std::span<const float> withoutBacks) {
-    constexpr double kSeen = 0.01;  // of an open vertex's light
-    const std::size_t size = open.size() * open.size();
-    for (std::uint32_t v = 0; v < mesh.vertexCount(); ++v) {
-        double difference = 0;
-        for (std::size_t i = size * v; i < size * (v + 1); ++i) difference += std::abs(withBacks[i] - withoutBacks[i]);
-        inside[v] = difference > kSeen * open[0];
-    }
-    for (int ring = 0; ring < 3; ++ring) {
-        const std::vector<std::uint8_t> before = inside;
-        for (const glm::uvec3& t : mesh.triangles)
-            if (before[t.x] || before[t.y] || before[t.z])
-                for (int c = 0; c < 3; ++c) inside[t[c]] = 1;
-    }
 }
 
 /// Vertices that need more blockers than others, dark ones and those that see backs, are in groups of their own.
@@ -187,7 +129,7 @@ void SelfTransfer::State::makeGroups(std::span<const glm::vec3> rest, std::span<
     for (const int kind : {0, 1, 2, 3}) {  // bits: dark, inside
         std::vector<glm::vec3> ofKind = normals;
         for (std::size_t v = 0; v < ofKind.size(); ++v)
-            if ((inside[v] ? 2 : 0) + (!dark.empty() && dark[v] ? 1 : 0) != kind) ofKind[v] = glm::vec3(0);
+            if ((parts.inside[v] ? 2 : 0) + (!dark.empty() && dark[v] ? 1 : 0) != kind) ofKind[v] = glm::vec3(0);
         for (std::vector<std::uint32_t>& group : groupReceivers(rest, ofKind, kGroup)) {
             groups.push_back(std::move(group));
             angles.push_back(static_cast<float>(options.lodAngle) * (kind & 1 ? kDarkAngle : 1));
@@ -208,7 +150,7 @@ void SelfTransfer::State::findNear() {
         for (int ring = 0; ring <= options.rings; ++ring) {
             near[g].clear();
             for (const std::uint32_t v : reached) {
-                if (sheets[v])
+                if (parts.sheets[v])
                     for (const std::uint32_t patch : levels.joined(levels.coarsestOf(v))) nearPatches[g][patch] = 1;
                 for (std::uint32_t i = corners.first[v]; i < corners.first[v + 1]; ++i)
                     near[g].push_back(corners.order[i] / 3);
@@ -313,11 +255,11 @@ GroupResult SelfTransfer::State::computeGroup(std::size_t group, std::span<const
     scratch.indices.resize(room * vertices.size());
     scratch.counts.resize(vertices.size());
     scratch.receivers.resize(vertices.size());
-    const bool drawBoth = hasSheets || groupInside[group];
+    const bool drawBoth = parts.hasSheets || groupInside[group];
     for (std::size_t i = 0; i < vertices.size(); ++i) {
         scratch.receivers[i] = receiverAt(positions[vertices[i]], frame.normals[vertices[i]]);
-        scratch.counts[i] =
-            blockerKernels.cull(scratch.listed, scratch.receivers[i], inside[vertices[i]], &scratch.indices[room * i]);
+        scratch.counts[i] = blockerKernels.cull(scratch.listed, scratch.receivers[i], parts.inside[vertices[i]],
+                                                &scratch.indices[room * i]);
         for (std::size_t k = 0; !sets.drawn.empty() && k < scratch.counts[i]; ++k) {
             const std::uint32_t row = scratch.listed.index[scratch.indices[room * i + k]];
             sets.drawn[group * setWords() + row / 64] |= std::uint64_t{1} << row % 64;
@@ -375,9 +317,9 @@ SelfTransfer::SelfTransfer(WeldedMesh mesh, std::span<const glm::vec3> rest, con
     constexpr double kDark = 0.5;  // of an open vertex's light
     State& s = *state_;
     const std::vector<float> atRest = compute(rest).coefficients;
-    if (s.hasShells) {
-        std::fill(s.inside.begin(), s.inside.end(), std::uint8_t{0});
-        s.findInside(atRest, compute(rest).coefficients);
+    if (s.parts.hasShells) {
+        std::fill(s.parts.inside.begin(), s.parts.inside.end(), std::uint8_t{0});
+        findInside(s.mesh, atRest, compute(rest).coefficients, s.open[0], s.parts);
     }
     const std::size_t size = s.open.size() * s.open.size();
     std::vector<std::uint8_t> dark;

@@ -5,15 +5,10 @@
 #include <memory>
 
 #include "transfer/blocker_levels.hpp"
+#include "transfer/blocking_parts.hpp"
 #include "transfer/harmonic_rotation.hpp"
 
 namespace nacre {
-
-/// Which sides of a triangle block. On closed meshes the sides that face the vertex are all that can be seen first.
-/// Fine: both of the mesh's own triangles, the front of coarser levels', whose backs would hide vertices that they lie
-/// over. Auto: Front when closed; else by connected part: of sheets (cloth) both sides; of shells, which nearly enclose
-/// something, as Fine for the vertices that see some backs at rest, as Front for the others.
-enum class BlockingSides { Auto, Front, Fine, Both };
 
 struct SelfTransferOptions {
     int mask = 32;             ///< N of N × N bits: 16, 32, 64, 128
