@@ -13,8 +13,9 @@ void parallelFor(std::size_t count, unsigned threads, const std::function<void(s
         for (std::size_t i = 0; i < count; ++i) body(i);
         return;
     }
-    // More threads than cores buy nothing, and TBB would complain about them on stderr. An arena of its own costs a loop
-    // tens of microseconds: only fewer threads need one. Isolated, a thread that waits takes up no other loop's task.
+    // More threads than cores buy nothing, and TBB would complain about them on stderr. An arena of its own costs a
+    // loop tens of microseconds: only fewer threads need one. Isolated, a thread that waits takes up no other loop's
+    // task.
     if (threads == 0 || threads >= static_cast<unsigned>(tbb::info::default_concurrency())) {
         tbb::this_task_arena::isolate([&] { tbb::parallel_for(std::size_t{0}, count, body); });
         return;
