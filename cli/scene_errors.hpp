@@ -17,6 +17,7 @@ struct SceneShot {
     int samples = 2;  ///< n × n shaded a pixel, and averaged
     double time = 0;
 };
+/// Both draw and trace specular surfaces to the depth of the renderer's switches.
 
 /// Draws with the renderer's switches and reads back.
 Image shoot(SceneRenderer& renderer, const SceneShot& shot);

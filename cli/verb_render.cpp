@@ -14,6 +14,8 @@
 #include "core/error.hpp"
 #include "shading/context.hpp"
 #include "shading/image_output.hpp"
+#include "shading/multipass/pass_schedule.hpp"
+#include "shading/scene_bounds.hpp"
 #include "shading/scene_file.hpp"
 
 namespace nacre::cli {
@@ -27,7 +29,8 @@ struct Settings {
     SceneShot shot;
     double white = 0;  ///< 0: of the picture
     int rays = 4;
-    bool reference = false, shares = false, asJson = false;
+    SpecularOptions specular;
+    bool reference = false, shares = false, asJson = false, passes = false;
 };
 
 std::string endingOf(const std::string& output) {
@@ -95,16 +98,50 @@ std::string errorText(const SceneErrors& e) {
     return out;
 }
 
+json passesJson(const PassSchedule& schedule) {
+    json out = {{"views", schedule.views.size()},
+                {"levels", schedule.deepest},
+                {"views_left_out", schedule.unseen},
+                {"passes", json::array()}};
+    for (const Pass& p : schedule.passes)
+        out["passes"].push_back({{"kind", toString(p.kind)},
+                                 {"view", p.view},
+                                 {"face", p.face},
+                                 {"stencil", p.stencil},
+                                 {"scissor", {p.scissor.x, p.scissor.y, p.scissor.width, p.scissor.height}}});
+    return out;
+}
+
+/// The list alone, which takes no OpenGL.
+void printPasses(const SceneDescription& scene, const Settings& s) {
+    const SceneBounds box = boundsAt(scene, s.shot.time);
+    const int n = s.shot.samples;
+    const PassSchedule schedule =
+        makeSchedule(specularFaces(scene, nodeTransforms(scene, s.shot.time)),
+                     {scene.camera, n * s.shot.width, n * s.shot.height, box.low, box.high}, s.specular);
+    std::vector<std::string> names;
+    for (const SceneNode& node : scene.nodes) names.push_back(node.name);
+    putData(s.asJson ? passesJson(schedule).dump(2) + "\n" : passListText(schedule, names));
+}
+
 void runRender(const Context& context, const Settings& s) {
-    const std::string ending = endingOf(s.output);
+    if (s.output.empty() && !s.passes) throw UsageError("expected --output, or --passes, found neither");
+    const std::string ending = s.passes ? "" : endingOf(s.output);
     const Progress progress = terminalProgress(context.quiet);
     report(progress, "reading " + s.scene, 0);
     SceneOptions reading;
     reading.note = [](const std::string& line) { tell(line); };
+    reading.needAssets = !s.passes;
     SceneDescription scene = readScene(s.scene, reading);
+    if (s.passes) {
+        endProgress();
+        checkSpecular(scene);
+        return printPasses(scene, s);
+    }
     const nacre::Context gl(GlApi::Core33);
     ProgramLoader loader;
     SceneRenderer renderer(loader, std::move(scene));
+    renderer.switches.specular = s.specular;
     report(progress, "drawing", 0);
     const Stopwatch watch;
     const Image picture = shoot(renderer, s.shot);
@@ -155,7 +192,7 @@ Verb renderVerb(Context& context) {
         "error that goes with it.";
     verb.options = {
         {"scene", "FILE", "The scene", into(s->scene), true},
-        {"-o,--output", "OUT", "The picture to write, .exr or .png", into(s->output), true},
+        {"-o,--output", "OUT", "The picture to write, .exr or .png", into(s->output)},
         {"--size", "WxH", "Pixels (default 512x512)", [s](const std::string& text) { takeSize(s->shot, text); }},
         {"--samples", "N", "N x N shaded samples a pixel (default 2)",
          integerInto([s](long long v) { s->shot.samples = static_cast<int>(v); }, 1, 8)},
@@ -166,6 +203,9 @@ Verb renderVerb(Context& context) {
                  throw UsageError(fmt::format("expected a finite number, found '{}'", text));
              s->shot.time = v[0];
          }},
+        {"--depth", "N", "Mirrors and panes along a path (default 4)",
+         integerInto([s](long long v) { s->specular.depth = static_cast<int>(v); }, 0, 1000)},
+        {"--passes", "", "Print the passes that draw the scene, and draw nothing", into(s->passes)},
         {"--white", "W", "Radiance shown as white in PNG", positiveInto([s](double v) { s->white = v; })},
         {"--reference", "", "Trace the same scene, and print the error", into(s->reference)},
         {"--rays", "N", "Of the reference: N x N rays a pixel (default 4)",

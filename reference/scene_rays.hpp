@@ -18,6 +18,7 @@ public:
     struct Hit {
         SurfacePoint s;
         std::size_t node = 0;
+        Vec3 plane{0};  ///< unit normal of the triangle, to where it is counter-clockwise; of volumes 0
     };
     /// \param toEye  unit, against the ray
     std::optional<Hit> firstHit(const Ray& ray, const Vec3& toEye) const;
@@ -25,12 +26,15 @@ public:
     /// \param distance  to the light; infinite for directional ones
     bool shadowed(const Vec3& position, const Vec3& direction, double distance) const;
     bool blocked(const Vec3& position, const Vec3& direction) const;
+    /// Past the triangle that a ray starts from: positions are single precision.
+    double skip() const { return 1e-4 * all_.size(); }
 
 private:
     /// Meshes in the world as one, and which node a triangle belongs to.
     struct World {
         World(const SceneDescription& scene, const std::vector<glm::dmat4>& nodes, bool castersAlone);
         std::size_t nodeOf(std::uint32_t triangle) const;
+        Vec3 normalOf(std::uint32_t triangle) const;
         Mesh mesh;
         std::vector<std::size_t> firstTriangle, nodes;
     };
@@ -39,8 +43,6 @@ private:
         bool casts;
         VolumeField field;
     };
-    /// Past the triangle that a ray starts from: positions are single precision.
-    double skip() const { return 1e-4 * all_.size(); }
     bool insideVolume(const Vec3& position, const Vec3& direction, double distance, bool castersAlone) const;
 
     World world_;

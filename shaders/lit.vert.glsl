@@ -11,6 +11,9 @@ out vec3 v_position;
 out vec3 v_normal;
 out vec4 v_tangent;
 out vec2 v_uv;
+#ifdef NACRE_VIEW
+invariant gl_Position;  // passes meet at equal depths
+#endif
 
 void main() {
     v_position = nacre_mesh_position(position);
@@ -18,4 +21,7 @@ void main() {
     v_tangent = nacre_mesh_tangent(tangent, v_normal);
     v_uv = uv;
     gl_Position = nacre_world_to_clip * vec4(v_position, 1.0);
+#ifdef NACRE_VIEW
+    gl_ClipDistance[0] = dot(nacre_view_clip, vec4(v_position, 1.0));
+#endif
 }

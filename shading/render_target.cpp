@@ -52,7 +52,7 @@ RenderTarget::RenderTarget(const RenderTargetOptions& options) : options_(option
     attach(color_.name(), GL_COLOR_ATTACHMENT0, format, options, options.samples);
     if (options.depth) {
         depth_.emplace();
-        attach(depth_->name(), GL_DEPTH_ATTACHMENT, GL_DEPTH_COMPONENT24, options, options.samples);
+        attach(depth_->name(), GL_DEPTH_STENCIL_ATTACHMENT, GL_DEPTH24_STENCIL8, options, options.samples);
     }
     checkComplete(options);
     if (options.samples > 1) {
@@ -73,8 +73,10 @@ void RenderTarget::bind() const {
 void RenderTarget::clear(const glm::vec4& color) const {
     bind();
     glClearColor(color.r, color.g, color.b, color.a);
-    glDepthMask(GL_TRUE);  // a masked depth buffer would not be cleared
-    glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
+    glDepthMask(GL_TRUE);  // a masked buffer would not be cleared
+    glStencilMask(~0u);
+    glClearStencil(0);
+    glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT | GL_STENCIL_BUFFER_BIT);
 }
 
 void RenderTarget::bindForReading() const {

@@ -15,7 +15,7 @@ enum class ColorFormat { Rgba16F, Rgba32F };
 struct RenderTargetOptions {
     int width = 512, height = 512;  ///< [pixels], >= 1
     ColorFormat color = ColorFormat::Rgba32F;
-    bool depth = true;  ///< 24 bits
+    bool depth = true;  ///< 24 bits, and 8 of stencil
     int samples = 1;    ///< per pixel; > 1 is resolved (box filter) by read()
 };
 
@@ -30,7 +30,7 @@ public:
     int height() const { return options_.height; }
     /// Binds as framebuffer for drawing and reading and sets the viewport.
     void bind() const;
-    /// bind(), then fills colour, and depth with 1.
+    /// bind(), then fills colour, depth with 1 and stencil with 0.
     void clear(const glm::vec4& color = glm::vec4(0)) const;
     /// Resolves samples and binds what holds one a pixel, for glReadPixels and glCopyTexSubImage2D; row 0 is the
     /// lowest.
