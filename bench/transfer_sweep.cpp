@@ -68,13 +68,13 @@ double wallSeconds() {
 
 SelfTransferOptions fastTransfer() {
     SelfTransferOptions options;
-    options.coarse = 100, options.lodAngle = 0.05;
+    options.lodAngle = 0.6;
     return options;
 }
 
 SelfTransferOptions qualityTransfer() {
     SelfTransferOptions options;
-    options.mask = 64, options.coarse = 100, options.lodAngle = 0.02;
+    options.lodAngle = 0.25;
     return options;
 }
 
@@ -173,8 +173,8 @@ std::vector<TransferMeasurement> sweepTransfer(const std::vector<TransferMesh>& 
         add(32, 0, 0);
         add(64, 0, 0);
         if (!options.quick) {
-            for (const double angle : {0.01, 0.02, 0.05, 0.1, 0.2, 0.4, 1.0}) add(32, fast.coarse, angle, fast.rings);
-            for (const std::size_t coarse : {100, 200, 400, 800}) add(32, coarse, fast.lodAngle, fast.rings);
+            for (const double angle : {0.05, 0.1, 0.15, 0.25, 0.4, 0.6, 1.0}) add(32, fast.coarse, angle, fast.rings);
+            for (const std::size_t coarse : {75, 150, 300, 600}) add(32, coarse, fast.lodAngle, fast.rings);
             add(32, fast.coarse, fast.lodAngle, 3 - fast.rings);
             for (const int table : {32, 64, 256, 0}) all.push_back(papers(mesh, {.table = table}));
             all.push_back(papers(mesh, {.rings = 1}));

@@ -3,10 +3,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <bit>
+#include <filesystem>
 
 #include "cli/output_file.hpp"
 #include "core/error.hpp"
 #include "transfer/paper_method.hpp"
+#include "transfer/visible_sets.hpp"
 
 namespace nacre::cli {
 
@@ -44,9 +47,10 @@ public:
         else
             self_.emplace(mesh, rest, o);
     }
-    TransferFrame compute(std::span<const glm::vec3> positions) const {
-        return paper_ ? paper_->compute(positions) : self_->compute(positions);
+    TransferFrame compute(std::span<const glm::vec3> positions, std::span<const std::uint64_t> visible = {}) const {
+        return paper_ ? paper_->compute(positions) : self_->compute(positions, {}, {}, {visible, {}});
     }
+    const SelfTransfer& self() const { return *self_; }  ///< unless the paper's
     std::size_t coarseTriangles() const { return paper_ ? paper_->coarseTriangles() : self_->coarseTriangles(); }
 
     BlockingSides sides() const { return paper_ ? sides_ : self_->options().sides; }  ///< resolved
@@ -56,6 +60,37 @@ private:
     std::optional<SelfTransfer> self_;
     std::optional<PaperMethod> paper_;
 };
+
+/// Reads the plan's sets, or makes and writes them. \param frames  that will be computed
+VisibleSets visibleSets(const SelfTransfer& transfer, const TransferPlan& plan,
+                        const std::vector<NumberedFrame>& frames, TransferRun::Sets& told) {
+    const Stopwatch watch;
+    std::error_code ignored;
+    VisibleSets sets;
+    if (std::filesystem::exists(plan.visibleSets, ignored)) {
+        sets = readVisibleSets(plan.visibleSets);
+        if (sets.key != transfer.key() || sets.groups != transfer.groupCount() || sets.rows != transfer.rowCount())
+            throw Error(fmt::format("{}: expected visible sets of this mesh with these levels of detail, found others",
+                                    plan.visibleSets));
+        for (const NumberedFrame& frame : frames)
+            if (sets.at(frame.number).empty())
+                throw Error(fmt::format("{}: expected a set for frame {}, found none", plan.visibleSets, frame.number));
+    } else {
+        sets = findVisibleSets(transfer, frames, plan.windowFrames);
+        writeVisibleSets(sets, plan.visibleSets);
+        told.made = true;
+    }
+    std::size_t bits = 0, set = 0;
+    for (const VisibleSets::Window& w : sets.windows) {
+        bits += std::size_t{sets.groups} * sets.rows;
+        for (const std::uint64_t word : w.bits) set += static_cast<std::size_t>(std::popcount(word));
+    }
+    told.windows = sets.windows.size();
+    told.bytes = std::filesystem::file_size(plan.visibleSets);
+    told.share = bits > 0 ? static_cast<double>(set) / static_cast<double>(bits) : 0;
+    told.seconds = watch.seconds();
+    return sets;
+}
 
 }  // namespace
 
@@ -81,23 +116,30 @@ TransferRun runTransfer(const AnimatedMesh& animation, const TransferPlan& plan,
     run.coarseTriangles = transfer.coarseTriangles();
     run.closed = mesh.closed;
     run.sides = transfer.sides();
-    transfer.compute(restPositions);
+    std::vector<NumberedFrame> frames;
     for (int f = first; f < end; ++f) {
-        report(progress, "frames", static_cast<double>(f - first) / (end - first));
-        if (!allFinite(frameAt(f))) {
+        if (allFinite(frameAt(f)))
+            frames.push_back({f, weldedPositions(mesh, frameAt(f))});
+        else
             run.refused.push_back(f);
-            continue;
-        }
-        std::vector<glm::vec3> positions = weldedPositions(mesh, frameAt(f));
-        if (!out.blocks.empty() && positions == out.blocks.back().positions) {
+    }
+    VisibleSets sets;
+    if (!plan.visibleSets.empty()) {
+        report(progress, "visible sets", 0);
+        sets = visibleSets(transfer.self(), plan, frames, run.sets.emplace());
+    }
+    transfer.compute(restPositions);
+    for (NumberedFrame& f : frames) {
+        report(progress, "frames", static_cast<double>(f.number - first) / (end - first));
+        if (!out.blocks.empty() && f.positions == out.blocks.back().positions) {
             ++run.reused;
         } else {
             const Stopwatch watch;
-            TransferFrame frame = transfer.compute(positions);
+            TransferFrame frame = transfer.compute(f.positions, sets.at(f.number));
             add(run, frame, watch.seconds(), watch.cpuSeconds());
-            out.blocks.push_back({std::move(positions), std::move(frame.coefficients)});
+            out.blocks.push_back({std::move(f.positions), std::move(frame.coefficients)});
         }
-        out.frames.push_back({f, static_cast<int>(out.blocks.size()) - 1});
+        out.frames.push_back({f.number, static_cast<int>(out.blocks.size()) - 1});
     }
     if (run.computed > 0) {
         run.listed /= static_cast<double>(run.computed);

@@ -22,15 +22,25 @@ struct TransferRun {
     std::size_t coarseTriangles = 0;
     bool closed = false;
     BlockingSides sides = BlockingSides::Auto;
+    struct Sets {
+        bool made = false;  ///< from these frames, and written
+        std::size_t windows = 0, bytes = 0;
+        double share = 0;    ///< of all pairs of group and blocker, mean over windows
+        double seconds = 0;  ///< that making or reading them took
+    };
+    std::optional<Sets> sets{};
 };
 
 struct TransferPlan {
     int first = 0, end = 0;  ///< frames first … end − 1
     SelfTransferOptions options;
-    std::optional<int> lut{};  ///< by PaperMethod with this table, and rings, coarse, sides and threads of the options
+    std::string visibleSets{};  ///< file of potentially visible sets: read when it is there, else made and written
+    int windowFrames = 0;       ///< of a set that is made; 0 = all
+    std::optional<int> lut{};   ///< by PaperMethod with this table, and rings, coarse, sides and threads of the options
 };
 
-/// \throws nacre::Error naming the animation when no frame has finite positions
+/// \throws nacre::Error naming the animation when no frame has finite positions, the sets' file when it can't be read
+/// or is of another mesh, other levels of detail or other frames
 TransferRun runTransfer(const AnimatedMesh& animation, const TransferPlan& plan, const std::string& name,
                         const Progress& progress);
 

@@ -177,6 +177,10 @@ std::string text(const Settings& s, const TransferRun& run, const json& data) {
         "  time        {:.1f} % rasterization, {:.1f} % integration, {:.1f} % transform, {:.1f} % other of {:.3g} CPU "
         "s\n",
         100 * t.rasterization / all, 100 * t.integration / all, 100 * t.transform / all, 100 * t.other / all, all);
+    if (run.sets)
+        out += fmt::format("  pvs         {} {}, {} windows, {:.1f} % of blockers a group, {}\n",
+                           run.sets->made ? "made" : "read", s.plan.visibleSets, run.sets->windows,
+                           100 * run.sets->share, humanBytes(run.sets->bytes));
     if (run.withoutNormal > 0) out += fmt::format("  no normal   {} vertices: zeros\n", run.withoutNormal);
     if (data.contains("error")) out += errorText(data["error"]);
     if (data.contains("white"))
@@ -199,6 +203,8 @@ void runTransferVerb(const Context& context, Settings s) {
     maskKernel(s.plan.options.mask, s.plan.options.vectors);  // a processor without these vectors: said before the work
     requireWritable(s.model, s.output, provisionalName(s.output), "");
     if (!s.ply.empty()) requirePlyPlace(s.ply, s.plan.first);
+    if (s.plan.windowFrames > 0 && s.plan.visibleSets.empty())
+        throw UsageError("--pvs-window: expected --pvs, found none");
     const LightCoefficients light = readLight(s.light, s.plan.options.order);
     const Progress progress = terminalProgress(context.quiet);
     report(progress, "reading " + s.model, 0);
@@ -217,6 +223,9 @@ void runTransferVerb(const Context& context, Settings s) {
     writeTransfer(run.recording, s.output);
     json data = meta;
     data.update(speedJson(run, s));
+    if (run.sets)
+        data["pvs"] = {{"file", s.plan.visibleSets}, {"made", run.sets->made},   {"windows", run.sets->windows},
+                       {"bytes", run.sets->bytes},   {"share", run.sets->share}, {"seconds", run.sets->seconds}};
     data["read_seconds"] = readSeconds;
     data["write_seconds"] = writing.seconds();
     data["bytes"] = std::filesystem::file_size(s.output);
@@ -290,12 +299,19 @@ std::vector<Option> options(const std::shared_ptr<Settings>& s) {
              integerInto([s](long long v) { s->plan.options.order = static_cast<int>(v); }, 0, kMaxTransferOrder))},
         {"--rings", "R", "The mesh itself blocks within so many rings of triangles, 1 or 2 (default 1; with --lut 2)",
          integerInto([s](long long v) { s->rings = static_cast<int>(v); }, 1, 2)},
-        {"--coarse", "N", "Triangles of the coarsest level of detail (default 400); 0: the mesh itself everywhere",
+        {"--coarse", "N",
+         "Triangles of the coarsest level of detail, about (default 150); 0: the mesh itself everywhere",
          integerInto([s](long long v) { s->plan.options.coarse = static_cast<std::size_t>(v); }, 0, 1 << 30)},
         {"--lod-angle", "RAD",
-         "A level is used where it is off by less, seen from the vertex: 0.2 (default) is 1 to 1.5 % off, 0.5 about 3 "
-         "%",
+         "A level is used where it is off by less, seen from the vertex (default 0.25: 1 to 2 % error; 0.6: about 3 %)",
          own("--lod-angle", positiveInto([s](double v) { s->plan.options.lodAngle = v; }))},
+        {"--pvs", "FILE",
+         "Potentially visible sets: read from FILE, or made from these frames and written there; blockers that no "
+         "frame draws aren't listed",
+         own("--pvs", into(s->plan.visibleSets))},
+        {"--pvs-window", "K", "Frames that share a set that is made (default all)",
+         own("--pvs-window",
+             integerInto([s](long long v) { s->plan.windowFrames = static_cast<int>(v); }, 1, 1 << 20))},
         {"--lut", "L",
          "HEMI's method as printed, to compare with, with a table of 6 L x L planes, to 512 (the paper's: 128); 0: "
          "exact planes",

@@ -29,9 +29,10 @@ struct BlockerKernel {
     void (*choose)(const PatchColumns& patches, const GroupBounds& group, float angle, std::uint8_t* levels);
     /// Those of `count` rows that may face, and rise over the plane of, some vertex of the group.
     /// \param candidates  room for 15 more behind
-    void (*list)(const BlockerRow* rows, std::uint32_t* candidates, std::size_t count, const GroupBounds& group, bool bothSides,
-                 ListedBlockers& out);
-    /// Those with a corner over the receiver's plane that, unless bothSides, face it. \param out  room for 16 more
+    void (*list)(const BlockerRow* rows, std::uint32_t* candidates, std::size_t count, const GroupBounds& group,
+                 bool bothSides, ListedBlockers& out);
+    /// Those with a corner over the receiver's plane that, unless bothSides, face it: their numbers in the list.
+    /// \param out  room for 16 more
     std::size_t (*cull)(const ListedBlockers& list, const Receiver& receiver, bool bothSides, std::uint32_t* out);
 };
 BlockerKernel blockerKernel(VectorSet set = VectorSet::Widest);

@@ -11,12 +11,30 @@ NACRE_INLINE Mask mayRise(const GroupBounds& group, const Columns& d, const Floa
     return dot(group.normal, d) + splat(glm::length(group.normal)) * radii + splat(group.spread) * (distance + radii) >= Floats{};
 }
 
+/// Distance of a point from sixteen triangles: to the plane where the point stands over the triangle, else to an edge.
+NACRE_INLINE Floats distanceFrom(const std::vector<float>* corners, std::size_t i, const glm::vec3& point) {
+    Columns at[3];
+    for (int c = 0; c < 3; ++c) at[c] = columnsAt(corners + 3 * c, i) - point;
+    const Columns n = cross(at[1] - at[0], at[2] - at[0]);
+    Floats toEdges = splat(1e30f);
+    Mask over = Mask{} - 1;
+    for (int c = 0; c < 3; ++c) {
+        const Columns &a = at[c], edge = at[(c + 1) % 3] - a;
+        over &= dot(n, cross(edge, a)) <= Floats{};  // the point, the origin, on the inner side of the edge
+        Floats along = -dot(a, edge) / (dot(edge, edge) + splat(1e-30f));
+        along = smaller(larger(along, Floats{}), splat(1));
+        const Columns foot{a.x + along * edge.x, a.y + along * edge.y, a.z + along * edge.z};
+        toEdges = smaller(toEdges, dot(foot, foot));
+    }
+    const Floats height = dot(n, at[0]), area = dot(n, n);
+    return root(choose(over & (area > Floats{}), height * height / (area + splat(1e-30f)), toEdges));
+}
+
 void choose(const PatchColumns& patches, const GroupBounds& group, float angle, std::uint8_t* levels) {
     for (std::size_t i = 0; i < patches.count; i += kWide) {
         const Columns d = columnsAt(patches.centre, i) - group.centre;
         const Floats distance = lengthOf(d);
-        Floats nearest = distance;
-        for (int c = 0; c < 3; ++c) nearest = smaller(nearest, lengthOf(columnsAt(patches.corners + 3 * c, i) - group.centre));
+        const Floats nearest = distanceFrom(patches.corners, i, group.centre);
         // What touches the group is fine until the angle is large: there an error is seen from no distance at all.
         const Floats allowed = splat(angle) * larger(nearest - splat(group.radius), splat(0.2f * angle) * distance);
         Mask level{};
@@ -53,18 +71,23 @@ void list(const BlockerRow* rows, std::uint32_t* candidates, std::size_t count, 
 }
 
 std::size_t cull(const ListedBlockers& list, const Receiver& receiver, bool bothSides, std::uint32_t* out) {
-    const glm::vec3 &p = receiver.point, &n = receiver.normal;
+    const glm::vec3 p = receiver.point, n = receiver.normal;
     const Floats height = splat(n.x * p.x + n.y * p.y + n.z * p.z);
-    std::size_t count = 0;
-    for (std::size_t i = 0; i < list.count; i += kWide) {
-        const Floats z = larger(larger(dot(n, columnsAt(list.columns, i)), dot(n, columnsAt(list.columns + 3, i))),
-                                dot(n, columnsAt(list.columns + 6, i)));
+    const float* column[13];
+    for (int c = 0; c < 13; ++c) column[c] = list.columns[c].data();
+    const auto at = [&](int c, std::size_t i) {
+        return Columns{load(column[c] + i), load(column[c + 1] + i), load(column[c + 2] + i)};
+    };
+    Mask numbers{};
+    for (int k = 0; k < kWide; ++k) numbers[k] = k;
+    std::size_t found = 0;
+    const std::size_t count = list.count;
+    for (std::size_t i = 0; i < count; i += kWide) {
+        const Floats z = larger(larger(dot(n, at(0, i)), dot(n, at(3, i))), dot(n, at(6, i)));
         Mask keep = z > height;
-        if (!bothSides) keep &= dot(p, columnsAt(list.columns + 9, i)) > load(&list.columns[12][i]);
-        const unsigned used = list.count - i >= kWide ? 0xffffu : (1u << (list.count - i)) - 1;
-        std::uint32_t which[kWide];
-        std::memcpy(which, &list.index[i], sizeof(which));
-        count = append(out, count, which, lanes(keep) & used);
+        if (!bothSides) keep &= dot(p, at(9, i)) > load(column[12] + i);
+        const unsigned used = count - i >= kWide ? 0xffffu : (1u << (count - i)) - 1;
+        found = append(out, found, numbers + static_cast<std::int32_t>(i), lanes(keep) & used);
     }
-    return count;
+    return found;
 }

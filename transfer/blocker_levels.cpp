@@ -3,6 +3,7 @@
 #include <meshoptimizer.h>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include "core/parallel.hpp"
@@ -11,7 +12,8 @@ namespace nacre {
 namespace {
 
 /// Edge collapses (Garland & Heckbert 1997, by meshoptimizer) until `count` triangles are left, or no more can go.
-std::vector<glm::uvec3> simplified(std::span<const glm::uvec3> triangles, std::span<const glm::vec3> positions, std::size_t count) {
+std::vector<glm::uvec3> simplified(std::span<const glm::uvec3> triangles, std::span<const glm::vec3> positions,
+                                   std::size_t count) {
     std::vector<unsigned> indices(3 * triangles.size());
     const std::size_t left = meshopt_simplify(indices.data(), &triangles[0].x, 3 * triangles.size(), &positions[0].x,
                                               positions.size(), sizeof(glm::vec3), 3 * count, 1e10f, 0, nullptr);
@@ -19,6 +21,17 @@ std::vector<glm::uvec3> simplified(std::span<const glm::uvec3> triangles, std::s
     for (std::size_t i = 0; i + 2 < left; i += 3) out.emplace_back(indices[i], indices[i + 1], indices[i + 2]);
     return out;
 }
+
+/// Adds the triangles of those connected parts that have none left.
+void keepParts(std::vector<glm::uvec3>& triangles, const std::vector<glm::uvec3>& finer,
+               std::span<const std::uint32_t> parts) {
+    std::vector<std::uint8_t> left(parts.size(), 0);
+    for (const glm::uvec3& t : triangles) left[parts[t.x]] = 1;
+    for (const glm::uvec3& t : finer)
+        if (!left[parts[t.x]]) triangles.push_back(t);
+}
+
+constexpr std::uint32_t kNoVertex = std::numeric_limits<std::uint32_t>::max();
 
 struct NearPoint {
     double distanceSquared = 0;
@@ -51,12 +64,16 @@ NearPoint nearestOn(const glm::dvec3& p, const glm::dvec3& a, const glm::dvec3& 
     return sum > 0 ? at(vb / sum, vc / sum) : at(0, 0);
 }
 
-/// For each vertex the level's triangle nearest to it among those that face its way, else the nearest of all.
+/// For each vertex the level's triangle nearest to it among those of its connected part that face its way, else the
+/// nearest of the part.
 struct Standing {
     std::vector<std::uint32_t> triangle;
     std::vector<glm::dvec3> weights;
 };
-Standing standing(const std::vector<glm::uvec3>& triangles, std::span<const glm::vec3> rest, std::span<const glm::vec3> normals) {
+Standing standing(const std::vector<glm::uvec3>& triangles, std::span<const glm::vec3> rest,
+                  std::span<const glm::vec3> normals, std::span<const std::uint32_t> parts) {
+    std::vector<std::vector<std::uint32_t>> ofPart(rest.size());
+    for (std::uint32_t t = 0; t < triangles.size(); ++t) ofPart[parts[triangles[t].x]].push_back(t);
     struct Ball {
         glm::dvec3 centre, normal;
         double radius;
@@ -73,7 +90,7 @@ Standing standing(const std::vector<glm::uvec3>& triangles, std::span<const glm:
         double best[2] = {std::numeric_limits<double>::max(), std::numeric_limits<double>::max()};
         std::uint32_t triangle[2] = {0, 0};
         glm::dvec3 weights[2] = {glm::dvec3(1, 0, 0), glm::dvec3(1, 0, 0)};
-        for (std::uint32_t t = 0; t < triangles.size(); ++t) {
+        for (const std::uint32_t t : ofPart[parts[v]]) {
             const int other = glm::dot(balls[t].normal, n) > 0 ? 0 : 1;
             const double away = glm::distance(p, balls[t].centre) - balls[t].radius;
             if (away > 0 && away * away >= best[other]) continue;
@@ -92,7 +109,8 @@ Standing standing(const std::vector<glm::uvec3>& triangles, std::span<const glm:
 }
 
 /// Least squares by relaxation: Σ_i w_i push_i is the height over the level's triangle, for each vertex of the mesh.
-std::vector<float> fittedPush(const std::vector<glm::uvec3>& triangles, const Standing& stands, std::span<const glm::vec3> rest) {
+std::vector<float> fittedPush(const std::vector<glm::uvec3>& triangles, const Standing& stands,
+                              std::span<const glm::vec3> rest) {
     std::vector<double> push(rest.size(), 0), sum(rest.size()), weight(rest.size());
     constexpr int kRounds = 12;
     for (int round = 0; round < kRounds; ++round) {
@@ -119,10 +137,67 @@ std::vector<float> fittedPush(const std::vector<glm::uvec3>& triangles, const St
     return out;
 }
 
-BlockerLevels::Level levelOf(std::vector<glm::uvec3> triangles, std::span<const glm::vec3> rest, std::span<const glm::vec3> normals) {
-    const Standing stands = standing(triangles, rest, normals);
+BlockerLevels::Level levelOf(std::vector<glm::uvec3> triangles, std::span<const glm::vec3> rest,
+                             std::span<const glm::vec3> normals, std::span<const std::uint32_t> parts) {
+    const Standing stands = standing(triangles, rest, normals, parts);
     std::vector<float> push = fittedPush(triangles, stands, rest);
-    return {std::move(triangles), std::move(push), stands.triangle};
+    return {std::move(triangles), std::move(push), stands.triangle, {}};
+}
+
+/// How far each patch's surfaces at a level and in the mesh are from each other at rest, either way [of the extent].
+/// Triangles are measured at their corners, middles of edges and centre, against the mesh where it belongs to the
+/// patches of their corners.
+std::vector<float> restErrors(const BlockerLevels& levels, std::size_t l, std::span<const glm::vec3> rest,
+                              float extent) {
+    const BlockerLevels::Level &level = levels.levels[l], &mesh = levels.levels[0];
+    const std::vector<glm::vec3> at =
+        pushedPositions(level, cornersOfVertices(level.triangles, rest.size()), rest, extent);
+    const auto away = [](const glm::dvec3& x, const glm::uvec3& t, std::span<const glm::vec3> p) {
+        return nearestOn(x, p[t.x], p[t.y], p[t.z]).distanceSquared;
+    };
+    std::vector<double> ofTriangle(level.triangles.size());
+    parallelFor(ofTriangle.size(), 0, [&](std::size_t i) {
+        const glm::uvec3& t = level.triangles[i];
+        const glm::dvec3 a = at[t.x], b = at[t.y], c = at[t.z];
+        for (const glm::dvec3& x : {a, b, c, 0.5 * (a + b), 0.5 * (b + c), 0.5 * (c + a), (a + b + c) / 3.0}) {
+            double nearest = std::numeric_limits<double>::max();
+            for (int k = 0; k < 3; ++k)
+                for (const std::uint32_t f : levels.patches[levels.levels.back().triangleOf[t[k]]].triangles[0])
+                    nearest = std::min(nearest, away(x, mesh.triangles[f], rest));
+            ofTriangle[i] = std::max(ofTriangle[i], nearest);
+        }
+    });
+    std::vector<float> out;
+    for (const BlockerLevels::Patch& patch : levels.patches) {
+        double most = 0;
+        for (const std::uint32_t t : patch.triangles[l]) most = std::max(most, ofTriangle[t]);
+        for (const std::uint32_t v : patch.vertices)
+            most = std::max(most, away(rest[v], level.triangles[level.triangleOf[v]], at));
+        out.push_back(extent > 0 ? static_cast<float>(std::sqrt(most)) / extent : 0.0f);
+    }
+    return out;
+}
+
+/// For triangles of a level that stand for no vertex: the nearest vertex of their connected part, else kNoVertex.
+std::vector<std::uint32_t> nearestVertices(const BlockerLevels::Level& level, std::span<const glm::vec3> rest,
+                                           std::span<const std::uint32_t> parts) {
+    std::vector<std::uint32_t> out(level.triangles.size(), kNoVertex);
+    std::vector<std::uint8_t> stands(out.size(), 0);
+    for (const std::uint32_t t : level.triangleOf) stands[t] = 1;
+    parallelFor(out.size(), 0, [&](std::size_t i) {
+        if (stands[i]) return;
+        const glm::uvec3& t = level.triangles[i];
+        const glm::vec3 middle = (rest[t.x] + rest[t.y] + rest[t.z]) / 3.0f;
+        float best = std::numeric_limits<float>::max();
+        for (std::uint32_t v = 0; v < rest.size(); ++v) {
+            if (parts[v] != parts[t.x] || v == t.x || v == t.y || v == t.z) continue;
+            const glm::vec3 d = rest[v] - middle;
+            if (glm::dot(d, d) >= best) continue;
+            best = glm::dot(d, d);
+            out[i] = v;
+        }
+    });
+    return out;
 }
 
 }  // namespace
@@ -137,20 +212,26 @@ float extentOf(std::span<const glm::vec3> positions) {
     return std::max({high.x - low.x, high.y - low.y, high.z - low.z});
 }
 
-BlockerLevels makeBlockerLevels(const WeldedMesh& mesh, std::span<const glm::vec3> rest, const BlockerLevelOptions& options) {
+BlockerLevels makeBlockerLevels(const WeldedMesh& mesh, std::span<const glm::vec3> rest,
+                                const BlockerLevelOptions& options) {
     BlockerLevels out;
     const std::size_t fine = mesh.triangles.size();
-    out.levels.push_back({mesh.triangles, std::vector<float>(rest.size(), 0), {}});
-    const std::vector<glm::vec3> normals = vertexNormals(mesh.triangles, cornersOfVertices(mesh.triangles, rest.size()), rest);
+    out.levels.push_back({mesh.triangles, std::vector<float>(rest.size(), 0), {}, {}});
+    const std::vector<glm::vec3> normals =
+        vertexNormals(mesh.triangles, cornersOfVertices(mesh.triangles, rest.size()), rest);
+    const std::vector<std::uint32_t> parts = connectedParts(mesh.triangles, rest.size());
     if (options.coarse > 0 && options.coarse < fine) {
-        std::vector<std::size_t> counts;
-        if (fine > options.coarse * options.least * options.least)
-            counts.push_back(static_cast<std::size_t>(std::sqrt(static_cast<double>(fine) * static_cast<double>(options.coarse))));
-        counts.push_back(options.coarse);
-        for (const std::size_t count : counts) {
+        const double steps =
+            std::max(1.0, std::round(std::log(static_cast<double>(fine) / static_cast<double>(options.coarse)) /
+                                     std::log(options.ratio)));
+        for (double step = 1; step <= steps; ++step) {
+            const auto count = static_cast<std::size_t>(
+                static_cast<double>(fine) *
+                std::pow(static_cast<double>(options.coarse) / static_cast<double>(fine), step / steps));
             std::vector<glm::uvec3> triangles = simplified(mesh.triangles, rest, count);
+            keepParts(triangles, out.levels.back().triangles, parts);
             if (!triangles.empty() && triangles.size() < out.levels.back().triangles.size())
-                out.levels.push_back(levelOf(std::move(triangles), rest, normals));
+                out.levels.push_back(levelOf(std::move(triangles), rest, normals, parts));
         }
     }
     const BlockerLevels::Level& coarsest = out.levels.back();
@@ -170,8 +251,18 @@ BlockerLevels makeBlockerLevels(const WeldedMesh& mesh, std::span<const glm::vec
             std::uint32_t patch[3];
             for (int c = 0; c < 3; ++c) patch[c] = coarsest.triangleOf[out.levels[level].triangles[t][c]];
             for (int c = 0; c < 3; ++c)
-                if (std::find(patch, patch + c, patch[c]) == patch + c) out.patches[patch[c]].triangles[level].push_back(t);
+                if (std::find(patch, patch + c, patch[c]) == patch + c)
+                    out.patches[patch[c]].triangles[level].push_back(t);
         }
+    for (BlockerLevels::Patch& patch : out.patches) patch.nearest.resize(out.levels.size());
+    for (std::size_t level = 1; level < out.levels.size(); ++level) {
+        const std::vector<std::uint32_t> nearest = nearestVertices(out.levels[level], rest, parts);
+        for (BlockerLevels::Patch& patch : out.patches)
+            for (const std::uint32_t t : patch.triangles[level])
+                if (nearest[t] != kNoVertex) patch.nearest[level].emplace_back(nearest[t], t);
+    }
+    for (std::size_t level = 1; level < out.levels.size(); ++level)
+        out.levels[level].restError = restErrors(out, level, rest, extentOf(rest));
     return out;
 }
 

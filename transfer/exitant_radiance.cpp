@@ -9,7 +9,8 @@ namespace nacre {
 static Receiver turnedFrame(const Vec3& axis, double angle) {
     const Vec3 k = glm::normalize(axis);
     const auto turned = [&](const Vec3& v) {
-        return glm::vec3(v * std::cos(angle) + glm::cross(k, v) * std::sin(angle) + k * glm::dot(k, v) * (1 - std::cos(angle)));
+        return glm::vec3(v * std::cos(angle) + glm::cross(k, v) * std::sin(angle) +
+                         k * glm::dot(k, v) * (1 - std::cos(angle)));
     };
     return {glm::vec3(0), turned({1, 0, 0}), turned({0, 1, 0}), turned({0, 0, 1})};
 }
@@ -51,7 +52,8 @@ std::vector<glm::vec3> exitantRadiance(std::span<const float> transfer, const Li
     parallelFor((out.size() + kChunk - 1) / kChunk, threads, [&](std::size_t chunk) {
         for (std::size_t v = chunk * kChunk; v < std::min(out.size(), (chunk + 1) * kChunk); ++v) {
             Rgb sum(0);
-            for (std::size_t i = 0; i < light.size(); ++i) sum += static_cast<double>(transfer[v * light.size() + i]) * light[i];
+            for (std::size_t i = 0; i < light.size(); ++i)
+                sum += static_cast<double>(transfer[v * light.size() + i]) * light[i];
             out[v] = albedo * sum;
         }
     });

@@ -22,9 +22,9 @@ LightCoefficients turnedLight(const HarmonicRotation& rotation, const LightCoeff
 /// Σ w_k L_k. \throws std::invalid_argument for no light, one of another order, or not one finite weight a light
 LightCoefficients blendedLights(std::span<const LightCoefficients> lights, std::span<const double> weights);
 
-/// Radiance albedo Σ_i L_i V_i of each vertex, whichever way it is seen: the surface is matt. Light cut at an order rings:
-/// small negative values are what the coefficients say, and stay.
-/// \param transfer  [vertex][light.size()] \throws std::invalid_argument when it isn't a whole number of vertices
+/// Radiance albedo Σ_i L_i V_i of each vertex, whichever way it is seen: the surface is matt. Light cut at an order
+/// rings: small negative values are what the coefficients say, and stay. \param transfer  [vertex][light.size()]
+/// \throws std::invalid_argument when it isn't a whole number of vertices
 std::vector<glm::vec3> exitantRadiance(std::span<const float> transfer, const LightCoefficients& light,
                                        const Rgb& albedo = Rgb(1), unsigned threads = 0);
 

@@ -47,7 +47,9 @@ HarmonicRotation::HarmonicRotation(int order) : order_(order) {
     scales_ = scalesOf(order);
     const int count = 2 * order + 1;
     std::mt19937 random(1);
-    const auto uniform = [&] { return static_cast<double>(random()) / 4294967296.0; };  // std's distributions differ between libraries
+    const auto uniform = [&] {
+        return static_cast<double>(random()) / 4294967296.0;
+    };  // std's distributions differ between libraries
     double best = 0;
     for (int attempt = 0; attempt < 300; ++attempt) {
         std::vector<Vec3> directions;
@@ -66,7 +68,8 @@ HarmonicRotation::HarmonicRotation(int order) : order_(order) {
             const Eigen::JacobiSVD<Eigen::MatrixXd> svd(basis, Eigen::ComputeThinU | Eigen::ComputeThinV);
             worst = std::min(worst, svd.singularValues().minCoeff());
             if (worst <= best) break;
-            inverses.push_back(svd.matrixV() * svd.singularValues().cwiseInverse().asDiagonal() * svd.matrixU().transpose());
+            inverses.push_back(svd.matrixV() * svd.singularValues().cwiseInverse().asDiagonal() *
+                               svd.matrixU().transpose());
         }
         if (worst <= best) continue;
         best = worst;
@@ -90,7 +93,8 @@ void HarmonicRotation::turn(const Receiver* receivers, std::size_t count, const 
             frames[static_cast<std::size_t>(3 + k) * kLanes + i] = receivers[i].bitangent[k];
             frames[static_cast<std::size_t>(6 + k) * kLanes + i] = receivers[i].normal[k];
         }
-    kTurns[static_cast<std::size_t>(order_)](scales_.data(), directions_.data(), weights_.data(), frames, local, turned);
+    kTurns[static_cast<std::size_t>(order_)](scales_.data(), directions_.data(), weights_.data(), frames, local,
+                                             turned);
     for (std::size_t i = 0; i < count; ++i)
         for (std::size_t c = 0; c < size; ++c) world[i * size + c] = turned[c * kLanes + i];
 }

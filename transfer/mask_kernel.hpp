@@ -40,14 +40,16 @@ struct MaskKernel {
     /// \param mask  [(N + 31)/32][N] words
     void (*draw)(const MaskRows& rows, const BlockerRow* blockers, const Receiver& receiver, bool bothSides,
                  std::uint32_t* indices, std::size_t count, std::uint32_t* mask);
-    /// Σ over set bits, in the receiver's frame: [groups][cos, sin][16] by pair (l, m). For ones everywhere the integral
-    /// of y_lm cosθ/π over the hemisphere.
+    /// Σ over set bits, in the receiver's frame: [groups][cos, sin][16] by pair (l, m). For ones everywhere the
+    /// integral of y_lm cosθ/π over the hemisphere.
     void (*integrate)(const MaskIntegrals& tables, const std::uint32_t* mask, float* sums);
 };
 
 /// \param size  of the mask: 16, 32, 64 or 128 \throws std::invalid_argument also when the processor lacks the set
 MaskKernel maskKernel(int size, VectorSet set = VectorSet::Widest);
 
-inline std::size_t maskWords(int size) { return static_cast<std::size_t>(size) * static_cast<std::size_t>((size + 31) / 32); }
+inline std::size_t maskWords(int size) {
+    return static_cast<std::size_t>(size) * static_cast<std::size_t>((size + 31) / 32);
+}
 
 }  // namespace nacre

@@ -40,7 +40,7 @@ struct RowBits {
 struct Edges {
     alignas(64) float a[3][kWide], b[3][kWide], lo[3][kWide], hi[3][kWide];
     alignas(64) std::int32_t row[kWide];  ///< first row of the window
-    unsigned narrow, wide;                ///< lanes: within a window; those that need all rows
+    unsigned half, narrow, wide;          ///< lanes: within half a window; within one; those that need all rows
 };
 
 template <int N>
@@ -112,51 +112,111 @@ NACRE_INLINE void findEdges(const BlockerRow* blockers, const Receiver& receiver
     store(edges.row, begin & (N - 1));
     used &= lanes(drawn);
     edges.wide = used & lanes(wide);
-    edges.narrow = used & ~edges.wide;
+    edges.half = used & ~edges.wide & lanes(count <= kWide / 2);
+    edges.narrow = used & ~edges.wide & ~edges.half;
+}
+
+/// The bits of narrow triangles in some rows: the last three lines of MaskRows' comment for edges that findEdges sorted.
+template <int N>
+NACRE_INLINE RowBits<N> narrowBits(const Floats (&q)[3], const Floats& lo1, const Floats& hi1, const Floats& dither) {
+    const Floats zero{};
+    return RowBits<N>(larger(larger(q[0], zero), q[1] + lo1), larger(smaller(q[2], q[1] + hi1), zero), dither);
 }
 
 template <int N>
-void draw(const MaskRows& rows, const BlockerRow* blockers, const Receiver& receiver, bool bothSides, std::uint32_t* indices,
-          std::size_t count, std::uint32_t* mask) {
-    constexpr int kWords = (N + 31) / 32, kBlocks = N / kWide;
-    Bits bits[kWords][kBlocks];
+NACRE_INLINE void drawInWindow(const MaskRows& rows, const Edges& edges, int lane, Bits (*bits)[N / kWide]) {
+    const MaskRows::Window& window = rows.windows[static_cast<std::size_t>(edges.row[lane])];
+    const Floats c = load(window.cosPhi), s = load(window.sinPhi);
+    Floats q[3];
+    for (int e = 0; e < 3; ++e) q[e] = splat(edges.a[e][lane]) * c + splat(edges.b[e][lane]) * s;
+    const RowBits<N> row = narrowBits<N>(q, splat(edges.lo[1][lane]), splat(edges.hi[1][lane]), load(window.dither));
+    for (int block = 0; block < N / kWide; ++block) {
+        const Bits in = as<Bits>(window.inBlock[block]);
+        for (int w = 0; w < (N + 31) / 32; ++w) bits[w][block] |= row.words[w] & in;
+    }
+}
+
+template <int N>
+NACRE_INLINE void drawInAllRows(const MaskRows& rows, const Edges& edges, int lane, Bits (*bits)[N / kWide]) {
+    for (int block = 0; block < N / kWide; ++block) {
+        const Floats c = load(rows.cosPhi + kWide * block), s = load(rows.sinPhi + kWide * block);
+        Floats lo{}, hi = splat(1e15f);
+        for (int e = 0; e < 3; ++e) {
+            const Floats q = splat(edges.a[e][lane]) * c + splat(edges.b[e][lane]) * s;
+            lo = larger(lo, q + splat(edges.lo[e][lane]));
+            hi = smaller(hi, q + splat(edges.hi[e][lane]));
+        }
+        const RowBits<N> row(lo, larger(hi, Floats{}), load(rows.dither + kWide * block));
+        for (int w = 0; w < (N + 31) / 32; ++w) bits[w][block] |= row.words[w];
+    }
+}
+
+#if NACRE_SET == 512
+/// Two triangles of at most eight rows each, side by side.
+template <int N>
+NACRE_INLINE void drawPair(const MaskRows& rows, const Edges& edges, int first, int second, Bits (*bits)[N / kWide]) {
+    const MaskRows::HalfWindow& a = rows.halves[static_cast<std::size_t>(edges.row[first])];
+    const MaskRows::HalfWindow& b = rows.halves[static_cast<std::size_t>(edges.row[second])];
+    const auto both = [](const float* low, const float* high) {
+        const __m512 v = _mm512_insertf32x8(_mm512_castps256_ps512(_mm256_load_ps(low)), _mm256_load_ps(high), 1);
+        return as<Floats>(v);
+    };
+    const __m512i which = _mm512_mask_set1_epi32(_mm512_set1_epi32(first), 0xff00, second);
+    const auto ofBoth = [&](const float* column) {
+        const __m512 v = _mm512_permutexvar_ps(which, _mm512_load_ps(column));
+        return as<Floats>(v);
+    };
+    const Floats c = both(a.cosPhi, b.cosPhi), s = both(a.sinPhi, b.sinPhi);
+    Floats q[3];
+    for (int e = 0; e < 3; ++e) q[e] = ofBoth(edges.a[e]) * c + ofBoth(edges.b[e]) * s;
+    const RowBits<N> row = narrowBits<N>(q, ofBoth(edges.lo[1]), ofBoth(edges.hi[1]), both(a.dither, b.dither));
+    for (int w = 0; w < (N + 31) / 32; ++w) {
+        const __m512i r = as<__m512i>(row.words[w]);
+        const Bits low = as<Bits>(_mm512_shuffle_i64x2(r, r, 0x44)), high = as<Bits>(_mm512_shuffle_i64x2(r, r, 0xee));
+        for (int block = 0; block < N / kWide; ++block) {
+            const Bits inA = as<Bits>(a.inBlock[block]), inB = as<Bits>(b.inBlock[block]);
+            bits[w][block] |= (low & inA) | (high & inB);
+        }
+    }
+}
+#endif
+
+template <int N>
+NACRE_INLINE bool isFull(const Bits (*bits)[N / kWide]) {
+    Bits all = ~Bits{};
+    for (int w = 0; w < (N + 31) / 32; ++w)
+        for (int block = 0; block < N / kWide; ++block) all &= bits[w][block];
+    constexpr std::uint32_t kRow = N < 32 ? (1u << (N % 32)) - 1 : ~0u;
+    const auto missing = static_cast<Mask>((all & kRow) != kRow);
+    return !any(missing);
+}
+
+template <int N>
+void draw(const MaskRows& rows, const BlockerRow* blockers, const Receiver& receiver, bool bothSides,
+          std::uint32_t* indices, std::size_t count, std::uint32_t* mask) {
+    Bits bits[(N + 31) / 32][N / kWide];
     std::memcpy(bits, mask, sizeof(bits));
-    const Floats zero{};
     Edges edges;
     for (std::size_t k = count; k % kWide; ++k) indices[k] = indices[count - 1];
     for (std::size_t i = 0; i < count; i += kWide) {
-        findEdges<N>(blockers, receiver, bothSides, indices + i, count - i >= kWide ? 0xffffu : (1u << (count - i)) - 1,
-                     edges);
-        for (unsigned left = edges.narrow; left; left &= left - 1) {
-            const int lane = __builtin_ctz(left);
-            const MaskRows::Window& window = rows.windows[static_cast<std::size_t>(edges.row[lane])];
-            const Floats c = load(window.cosPhi), s = load(window.sinPhi);
-            const Floats middle = splat(edges.a[1][lane]) * c + splat(edges.b[1][lane]) * s;
-            const Floats lo = larger(larger(splat(edges.a[0][lane]) * c + splat(edges.b[0][lane]) * s, zero),
-                                     middle + splat(edges.lo[1][lane]));
-            const Floats hi = larger(smaller(splat(edges.a[2][lane]) * c + splat(edges.b[2][lane]) * s,
-                                             middle + splat(edges.hi[1][lane])), zero);
-            const RowBits<N> row(lo, hi, load(window.dither));
-            for (int block = 0; block < kBlocks; ++block) {
-                Bits in;
-                std::memcpy(&in, window.inBlock[block], sizeof(in));
-                for (int w = 0; w < kWords; ++w) bits[w][block] |= row.words[w] & in;
-            }
+        const unsigned used = count - i >= kWide ? 0xffffu : (1u << (count - i)) - 1;
+        findEdges<N>(blockers, receiver, bothSides, indices + i, used, edges);
+#if NACRE_SET == 512
+        for (unsigned left = edges.half; left;) {
+            const int first = __builtin_ctz(left);
+            left &= left - 1;
+            const int second = left ? __builtin_ctz(left) : first;
+            left &= left - 1;
+            drawPair<N>(rows, edges, first, second, bits);
         }
-        for (unsigned left = edges.wide; left; left &= left - 1) {
-            const int lane = __builtin_ctz(left);
-            for (int block = 0; block < kBlocks; ++block) {
-                const Floats c = load(rows.cosPhi + kWide * block), s = load(rows.sinPhi + kWide * block);
-                Floats lo = zero, hi = splat(1e15f);
-                for (int e = 0; e < 3; ++e) {
-                    const Floats q = splat(edges.a[e][lane]) * c + splat(edges.b[e][lane]) * s;
-                    lo = larger(lo, q + splat(edges.lo[e][lane]));
-                    hi = smaller(hi, q + splat(edges.hi[e][lane]));
-                }
-                const RowBits<N> row(lo, larger(hi, zero), load(rows.dither + kWide * block));
-                for (int w = 0; w < kWords; ++w) bits[w][block] |= row.words[w];
-            }
-        }
+#else
+        edges.narrow |= edges.half;
+#endif
+        for (unsigned left = edges.narrow; left; left &= left - 1)
+            drawInWindow<N>(rows, edges, __builtin_ctz(left), bits);
+        for (unsigned left = edges.wide; left; left &= left - 1)
+            drawInAllRows<N>(rows, edges, __builtin_ctz(left), bits);
+        if (isFull<N>(bits)) break;
     }
     std::memcpy(mask, bits, sizeof(bits));
 }

@@ -32,7 +32,7 @@ MaskShading::MaskShading(int size, int order, MaskDetail detail)
                     for (int i = 0; i < kPoints; ++i)
                         for (int j = 0; j < kPoints; ++j)
                             sum += harmonicAt(l, m, std::sqrt(1 - (step + (i + 0.5) / kPoints) / edge),
-                                            2 * kPi * (row + (j + 0.5) / kPoints) / edge);
+                                              2 * kPi * (row + (j + 0.5) / kPoints) / edge);
                     harmonics_.push_back(static_cast<float>(sum / (kPoints * kPoints)));
                 }
         }
@@ -40,17 +40,20 @@ MaskShading::MaskShading(int size, int order, MaskDetail detail)
 
 /// Share of a cell that nothing hides.
 float MaskShading::open(std::span<const std::uint32_t> mask, std::size_t cell) const {
-    const int edge = size_ / block_, row = static_cast<int>(cell) / edge * block_, step = static_cast<int>(cell) % edge * block_;
+    const int edge = size_ / block_, row = static_cast<int>(cell) / edge * block_,
+              step = static_cast<int>(cell) % edge * block_;
     int hidden = 0;
     for (int r = row; r < row + block_; ++r)
-        hidden += std::popcount(mask[static_cast<std::size_t>(step / 32 * size_ + r)] >> (step % 32) & ((1u << block_) - 1));
+        hidden +=
+            std::popcount(mask[static_cast<std::size_t>(step / 32 * size_ + r)] >> (step % 32) & ((1u << block_) - 1));
     return 1 - static_cast<float>(hidden) / static_cast<float>(block_ * block_);
 }
 
 void MaskShading::glossy(const Receiver& receiver, std::span<const std::uint32_t> mask, const glm::vec3& toEye,
                          const BrdfOfDirections& brdf, std::span<float> world) const {
     const std::size_t count = static_cast<std::size_t>((order_ + 1) * (order_ + 1));
-    const glm::vec3 wo(glm::dot(toEye, receiver.tangent), glm::dot(toEye, receiver.bitangent), glm::dot(toEye, receiver.normal));
+    const glm::vec3 wo(glm::dot(toEye, receiver.tangent), glm::dot(toEye, receiver.bitangent),
+                       glm::dot(toEye, receiver.normal));
     std::fill(world.begin(), world.end(), 0.0f);
     if (wo.z <= 0) return;
     std::vector<float> f(cells()), local(count * kLanes, 0.0f);

@@ -28,14 +28,15 @@ public:
     /// \param size  of the masks \param order  of the harmonics
     MaskShading(int size, int order, MaskDetail detail);
 
-    /// V_i(v) = ∫ y_i V f max(0, n·s) ds for the view wo, HEMI equation 3, by cells' middles: in `world` [(order + 1)²].
-    /// What faces away from the viewer gets zeros. \param toEye  unit, world's axes
+    /// V_i(v) = ∫ y_i V f max(0, n·s) ds for the view wo, HEMI equation 3, by cells' middles: in `world` [(order +
+    /// 1)²]. What faces away from the viewer gets zeros. \param toEye  unit, world's axes
     void glossy(const Receiver& receiver, std::span<const std::uint32_t> mask, const glm::vec3& toEye,
                 const BrdfOfDirections& brdf, std::span<float> world) const;
 
     /// ∫ L V max(0, n·s)/π ds: what a white diffuse point sends out, without harmonics.
     /// \param light  radiance by the world's direction
-    Rgb direct(const Receiver& receiver, std::span<const std::uint32_t> mask, const std::function<Rgb(const Vec3&)>& light) const;
+    Rgb direct(const Receiver& receiver, std::span<const std::uint32_t> mask,
+               const std::function<Rgb(const Vec3&)>& light) const;
 
     std::size_t cells() const { return directions_.size(); }
 

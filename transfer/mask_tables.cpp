@@ -57,6 +57,7 @@ std::shared_ptr<const MaskRows> maskRows(int size) {
         rows->dither[r] = static_cast<float>(radicalInverse(static_cast<std::uint64_t>(r), 2) + 0.5 / size);
     }
     rows->windows.resize(static_cast<std::size_t>(size));
+    rows->halves.resize(static_cast<std::size_t>(size));
     for (int w = 0; w < size; ++w) {
         MaskRows::Window& window = rows->windows[static_cast<std::size_t>(w)];
         window = {};
@@ -66,6 +67,15 @@ std::shared_ptr<const MaskRows> maskRows(int size) {
             window.sinPhi[lane] = rows->sinPhi[row];
             window.dither[lane] = rows->dither[row];
             window.inBlock[row / kLanes][lane] = ~0u;
+        }
+        MaskRows::HalfWindow& half = rows->halves[static_cast<std::size_t>(w)];
+        half = {};
+        for (int k = 0; k < kLanes / 2; ++k) {
+            const int row = (w + k) % size, lane = row % (kLanes / 2);
+            half.cosPhi[lane] = rows->cosPhi[row];
+            half.sinPhi[lane] = rows->sinPhi[row];
+            half.dither[lane] = rows->dither[row];
+            half.inBlock[row / kLanes][row % kLanes] = ~0u;
         }
     }
     return rows;
@@ -104,8 +114,10 @@ std::shared_ptr<const MaskIntegrals> maskIntegrals(int size, int order) {
             const double overRow = (m > 0 ? std::sin(half) / half : 1.0) / (kIntegralScale * size * size);
             for (int r = 0; r < size; ++r) {
                 const double phi = 2 * kPi * (r + 0.5) / size;
-                out->rowCos[static_cast<std::size_t>(r) * lanes + pair] = static_cast<float>(std::cos(m * phi) * overRow);
-                out->rowSin[static_cast<std::size_t>(r) * lanes + pair] = static_cast<float>(std::sin(m * phi) * overRow);
+                out->rowCos[static_cast<std::size_t>(r) * lanes + pair] =
+                    static_cast<float>(std::cos(m * phi) * overRow);
+                out->rowSin[static_cast<std::size_t>(r) * lanes + pair] =
+                    static_cast<float>(std::sin(m * phi) * overRow);
             }
         }
     return out;

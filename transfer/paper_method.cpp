@@ -164,7 +164,8 @@ void PaperMethod::State::findNear() {
 TaskResult PaperMethod::State::computeTask(std::span<const std::uint32_t> of, const BlockersNow& blockers,
                                            std::span<const glm::vec3> positions, TransferFrame& frame) const {
     TaskResult result;
-    double before = threadSeconds();  // read by the sixteen vertices, since that takes time too: culling counts as rasterization
+    double before =
+        threadSeconds();  // read by the sixteen vertices, since that takes time too: culling counts as rasterization
     const auto lap = [&](double& seconds) {
         const double here = threadSeconds();
         seconds += here - before;

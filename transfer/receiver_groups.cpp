@@ -5,8 +5,8 @@
 
 namespace nacre {
 
-std::vector<std::vector<std::uint32_t>> groupReceivers(std::span<const glm::vec3> positions, std::span<const glm::vec3> normals,
-                                                       std::size_t most) {
+std::vector<std::vector<std::uint32_t>> groupReceivers(std::span<const glm::vec3> positions,
+                                                       std::span<const glm::vec3> normals, std::size_t most) {
     std::vector<std::uint32_t> all;
     glm::vec3 low(1e30f), high(-1e30f);
     for (std::uint32_t v = 0; v < positions.size(); ++v) {
@@ -17,7 +17,9 @@ std::vector<std::vector<std::uint32_t>> groupReceivers(std::span<const glm::vec3
     }
     // Opposite normals part as a quarter of the mesh's size does: lists are culled by both.
     const float facing = all.empty() ? 0.0f : 0.125f * glm::length(high - low);
-    const auto key = [&](std::uint32_t v, int axis) { return axis < 3 ? positions[v][axis] : facing * normals[v][axis - 3]; };
+    const auto key = [&](std::uint32_t v, int axis) {
+        return axis < 3 ? positions[v][axis] : facing * normals[v][axis - 3];
+    };
     std::vector<std::vector<std::uint32_t>> groups;
     const std::function<void(std::span<std::uint32_t>)> halve = [&](std::span<std::uint32_t> part) {
         if (part.size() <= most) {
@@ -27,15 +29,18 @@ std::vector<std::vector<std::uint32_t>> groupReceivers(std::span<const glm::vec3
         int widest = 0;
         float extent = -1;
         for (int axis = 0; axis < 6; ++axis) {
-            const auto [a, b] = std::minmax_element(part.begin(), part.end(), [&](auto x, auto y) { return key(x, axis) < key(y, axis); });
+            const auto [a, b] = std::minmax_element(part.begin(), part.end(),
+                                                    [&](auto x, auto y) { return key(x, axis) < key(y, axis); });
             if (key(*b, axis) - key(*a, axis) <= extent) continue;
             extent = key(*b, axis) - key(*a, axis);
             widest = axis;
         }
-        const std::size_t half = (part.size() / 2 + most - 1) / most * most;  // full groups: the kernels work by sixteen
-        std::nth_element(part.begin(), part.begin() + static_cast<std::ptrdiff_t>(half), part.end(), [&](auto x, auto y) {
-            return key(x, widest) < key(y, widest) || (key(x, widest) == key(y, widest) && x < y);
-        });
+        const std::size_t half =
+            (part.size() / 2 + most - 1) / most * most;  // full groups: the kernels work by sixteen
+        std::nth_element(part.begin(), part.begin() + static_cast<std::ptrdiff_t>(half), part.end(),
+                         [&](auto x, auto y) {
+                             return key(x, widest) < key(y, widest) || (key(x, widest) == key(y, widest) && x < y);
+                         });
         halve(part.first(half));
         halve(part.subspan(half));
     };
@@ -43,7 +48,8 @@ std::vector<std::vector<std::uint32_t>> groupReceivers(std::span<const glm::vec3
     return groups;
 }
 
-GroupBounds boundsOfGroup(std::span<const std::uint32_t> group, std::span<const glm::vec3> positions, std::span<const glm::vec3> normals) {
+GroupBounds boundsOfGroup(std::span<const std::uint32_t> group, std::span<const glm::vec3> positions,
+                          std::span<const glm::vec3> normals) {
     GroupBounds bounds;
     glm::vec3 low(positions[group[0]]), high = low;
     for (const std::uint32_t v : group) {

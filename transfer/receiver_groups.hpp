@@ -11,15 +11,17 @@ namespace nacre {
 
 /// Groups of at most `most` vertices near each other and facing alike, by halving the longest extent of position and
 /// normal. Vertices without a normal are in no group.
-std::vector<std::vector<std::uint32_t>> groupReceivers(std::span<const glm::vec3> positions, std::span<const glm::vec3> normals,
-                                                       std::size_t most);
+std::vector<std::vector<std::uint32_t>> groupReceivers(std::span<const glm::vec3> positions,
+                                                       std::span<const glm::vec3> normals, std::size_t most);
 
-/// What holds for all vertices of a group: points in a ball, normals within `spread` of one (as lengths of differences).
+/// What holds for all vertices of a group: points in a ball, normals within `spread` of one (as lengths of
+/// differences).
 struct GroupBounds {
     glm::vec3 centre{0}, normal{0};
     float radius = 0, spread = 0;
 };
-GroupBounds boundsOfGroup(std::span<const std::uint32_t> group, std::span<const glm::vec3> positions, std::span<const glm::vec3> normals);
+GroupBounds boundsOfGroup(std::span<const std::uint32_t> group, std::span<const glm::vec3> positions,
+                          std::span<const glm::vec3> normals);
 
 /// Whether nothing in a ball rises over the plane of any of the group's vertices.
 bool belowHorizon(const GroupBounds& group, const glm::vec3& centre, float radius);

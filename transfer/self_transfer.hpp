@@ -9,18 +9,19 @@
 
 namespace nacre {
 
-/// Which sides of a triangle block. On closed meshes the sides that face the vertex are all that can be seen first. Fine:
-/// both of the mesh's own triangles, the front of coarser levels', whose backs would hide vertices that they lie over;
-/// for meshes of shells with openings. Auto: Front when closed, Fine when the connected parts
-/// nearly enclose something, else (cloth) Both.
+/// Which sides of a triangle block. On closed meshes the sides that face the vertex are all that can be seen first.
+/// Fine: both of the mesh's own triangles, the front of coarser levels', whose backs would hide vertices that they lie
+/// over; for meshes of shells with openings. Auto: Front when closed, Fine when the connected parts nearly enclose
+/// something, else (cloth) Both.
 enum class BlockingSides { Auto, Front, Fine, Both };
 
 struct SelfTransferOptions {
-    int mask = 32;                 ///< N of N × N bits: 16, 32, 64, 128
-    int order = 4;                 ///< highest band of harmonics, 0 to 6: (order + 1)² coefficients
-    int rings = 1;                 ///< within so many rings of triangles about a vertex the mesh itself blocks: 1 or 2
-    std::size_t coarse = 400;      ///< triangles of the coarsest level; 0 = the mesh itself everywhere
-    double lodAngle = 0.2;         ///< [rad] a level is used where it is off by less, seen from the vertex
+    int mask = 32;             ///< N of N × N bits: 16, 32, 64, 128
+    int order = 4;             ///< highest band of harmonics, 0 to 6: (order + 1)² coefficients
+    int rings = 1;             ///< within so many rings of triangles about a vertex the mesh itself blocks: 1 or 2
+    std::size_t coarse = 150;  ///< triangles of the coarsest level, about; 0 = the mesh itself everywhere
+    double lodAngle =
+        0.25;  ///< [rad] a level is used where it is off by less, seen from the vertex; less where it is dark
     BlockingSides sides = BlockingSides::Auto;
     VectorSet vectors = VectorSet::Widest;
     unsigned threads = 0;
@@ -43,7 +44,8 @@ struct TransferFrame {
 /// diffuse f = 1/π (radiance = albedo Σ L_i V_i for radiance coefficients L_i). What is integrated is the share hidden,
 /// taken from the transfer of an open hemisphere, which is known exactly.
 ///
-/// The triangles at a vertex hide what lies below them: they are drawn as skirts, down to the direction −n. Further blockers come from the level of detail that is close enough.
+/// The triangles at a vertex hide what lies below them: they are drawn as skirts, down to the direction −n. Further
+/// blockers come from the level of detail that is close enough.
 class SelfTransfer {
 public:
     /// \param rest  positions of a frame by which levels of detail and groups of vertices are made; finite
@@ -52,18 +54,26 @@ public:
     ~SelfTransfer();
     SelfTransfer(SelfTransfer&&) noexcept;
 
-    /// Called once for each computed vertex, from any thread: its mask of hidden directions and where that stands (the
-    /// receiver's point is relative to the frame).
+    /// Called once for each computed vertex, from any thread: its mask of hidden directions and where that stands (its
+    /// point is relative to the frame's extent).
     using MaskUse = std::function<void(std::uint32_t vertex, const Receiver&, std::span<const std::uint32_t> mask)>;
+
+    /// Bits [group][⌈rows/64⌉] of blockers, for visible_sets.hpp.
+    struct BlockerSets {
+        std::span<const std::uint64_t> visible;  ///< others aren't listed; empty = all are
+        std::span<std::uint64_t> drawn;          ///< those that are drawn are added; empty = not asked
+    };
 
     /// \param positions  of the welded vertices \param wanted  one a vertex, 0 = leave out; empty = all
     /// \throws std::invalid_argument when one isn't finite
     TransferFrame compute(std::span<const glm::vec3> positions, std::span<const std::uint8_t> wanted = {},
-                          const MaskUse& use = {}) const;
+                          const MaskUse& use = {}, const BlockerSets& sets = {}) const;
 
     const WeldedMesh& mesh() const;
     const SelfTransferOptions& options() const;  ///< sides resolved
     std::size_t coarseTriangles() const;
+    std::uint32_t groupCount() const, rowCount() const;
+    std::uint64_t key() const;  ///< differs where sets of blockers mean something else: by mesh, rest and levels
 
 private:
     struct State;

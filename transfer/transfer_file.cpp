@@ -22,8 +22,8 @@ static_assert(std::endian::native == std::endian::little, "arrays are written an
 namespace {
 
 constexpr std::string_view kMagic = "NACRE_TV";
-constexpr std::size_t kFixed = kMagic.size() + 8;                ///< bytes before the header
-constexpr std::uint64_t kMaxBytes = std::uint64_t{1} << 36;      // of a file: more than memory holds
+constexpr std::size_t kFixed = kMagic.size() + 8;            ///< bytes before the header
+constexpr std::uint64_t kMaxBytes = std::uint64_t{1} << 36;  // of a file: more than memory holds
 constexpr int kMaxCount = std::numeric_limits<int>::max();
 
 /// Empty, or what is wrong: the rules for what is written and what was read.
@@ -37,7 +37,8 @@ std::string problemOf(const TransferRecording& r) {
     for (std::size_t t = 0; t < r.triangles.size(); ++t)
         for (int c = 0; c < 3; ++c)
             if (r.triangles[t][c] >= vertices)
-                return fmt::format("expected vertices below {}, found {} in triangle {}", vertices, r.triangles[t][c], t);
+                return fmt::format("expected vertices below {}, found {} in triangle {}", vertices, r.triangles[t][c],
+                                   t);
     for (std::size_t v = 0; v < r.weldOf.size(); ++v)
         if (r.weldOf[v] >= vertices)
             return fmt::format("expected vertices below {}, found {} for source vertex {}", vertices, r.weldOf[v], v);
@@ -54,8 +55,9 @@ std::string problemOf(const TransferRecording& r) {
         if (!used[b]) return fmt::format("expected a frame for each block, found none for block {}", b);
         const auto& [positions, coefficients] = r.blocks[b];
         if (positions.size() != vertices || coefficients.size() != vertices * r.coefficientCount())
-            return fmt::format("expected {} vertices of {} coefficients, found {} positions and {} coefficients in block {}",
-                               vertices, r.coefficientCount(), positions.size(), coefficients.size(), b);
+            return fmt::format(
+                "expected {} vertices of {} coefficients, found {} positions and {} coefficients in block {}", vertices,
+                r.coefficientCount(), positions.size(), coefficients.size(), b);
         const auto finite = [](float x) { return std::isfinite(x); };
         const auto place = std::find_if_not(positions.begin(), positions.end(), [&](const glm::vec3& p) {
             return finite(p.x) && finite(p.y) && finite(p.z);
@@ -109,7 +111,8 @@ struct Head {
     TransferRecording recording;
     std::size_t sourceVertices = 0, triangles = 0, vertices = 0, blocks = 0;
     std::uint64_t bodyBytes() const {  // below 2^31 each and 2^31 blocks of 2^31 vertices: too large for 64 bits only
-        const double block = static_cast<double>(vertices) * (12 + 4 * static_cast<double>(recording.coefficientCount()));
+        const double block =
+            static_cast<double>(vertices) * (12 + 4 * static_cast<double>(recording.coefficientCount()));
         if (static_cast<double>(blocks) * block > static_cast<double>(kMaxBytes)) return kMaxBytes;
         return 4 * sourceVertices + 12 * triangles + blocks * vertices * (12 + 4 * recording.coefficientCount());
     }
@@ -174,10 +177,12 @@ TransferRecording parseTransfer(std::span<const std::uint8_t> bytes, const std::
     Head head = parseHead(parseJson(text, name), name);
     const std::span<const std::uint8_t> body = bytes.subspan(kFixed + fixed[1]);
     if (body.size() != head.bodyBytes())
-        throw Error(fmt::format("{}: expected {} bytes behind the header, found {}", name, head.bodyBytes(), body.size()));
+        throw Error(
+            fmt::format("{}: expected {} bytes behind the header, found {}", name, head.bodyBytes(), body.size()));
     TransferRecording& r = head.recording;
     if (head.blocks > r.frames.size())
-        throw Error(fmt::format("{}: expected at most a block a frame, found {} for {}", name, head.blocks, r.frames.size()));
+        throw Error(
+            fmt::format("{}: expected at most a block a frame, found {} for {}", name, head.blocks, r.frames.size()));
     Cursor cursor(body);
     r.weldOf = cursor.take<std::uint32_t>(head.sourceVertices);
     r.triangles = cursor.take<glm::uvec3>(head.triangles);

@@ -12,6 +12,13 @@ NACRE_INLINE void store(void* to, const V& v) {
     std::memcpy(to, &v, sizeof(v));
 }
 
+template <class To, class From>
+NACRE_INLINE To as(const From& v) {
+    To out;
+    std::memcpy(&out, &v, sizeof(out));
+    return out;
+}
+
 /// Ones from bit `count` on; none from 32 on. \param count  ≥ 0
 NACRE_INLINE Bits onesFrom(const Mask& count) {
 #if NACRE_SET == 512
@@ -101,5 +108,10 @@ struct Columns {
     Floats x, y, z;
 };
 NACRE_INLINE Floats dot(const glm::vec3& a, const Columns& b) { return splat(a.x) * b.x + splat(a.y) * b.y + splat(a.z) * b.z; }
+NACRE_INLINE Floats dot(const Columns& a, const Columns& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
+NACRE_INLINE Columns cross(const Columns& a, const Columns& b) {
+    return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+}
+NACRE_INLINE Columns operator-(const Columns& a, const Columns& b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
 NACRE_INLINE Columns operator-(const Columns& a, const glm::vec3& b) { return {a.x - splat(b.x), a.y - splat(b.y), a.z - splat(b.z)}; }
 NACRE_INLINE Floats lengthOf(const Columns& v) { return root(v.x * v.x + v.y * v.y + v.z * v.z); }

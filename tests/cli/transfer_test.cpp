@@ -112,6 +112,42 @@ TEST(CommandTransfer, SameBitsForAnyThreadsAndVectors) {
     EXPECT_NE(coefficients({"--mask", "64"}), one);
 }
 
+TEST(CommandTransfer, VisibleSetsListLessAndChangeNothing) {
+    const Scratch scratch;
+    const std::string sets = scratch / "a.pvs";
+    const auto run = [&](const std::vector<std::string>& more) {
+        std::vector<std::string> words = {"transfer", "cloth", "-o", scratch / "a.tv", "--frames", "3:8", "--json"};
+        words.insert(words.end(), more.begin(), more.end());
+        const Outcome outcome = nacre(words);
+        EXPECT_EQ(outcome.code, 0) << outcome.err;
+        return json::parse(outcome.out);
+    };
+    const json plain = run({});
+    const std::vector<float> expected = readTransfer(scratch / "a.tv").blocks[4].coefficients;
+    const json made = run({"--pvs", sets, "--pvs-window", "3"});
+    EXPECT_EQ(readTransfer(scratch / "a.tv").blocks[4].coefficients, expected);
+    EXPECT_EQ(made["pvs"]["made"], true);
+    EXPECT_EQ(made["pvs"]["windows"], 2);
+    EXPECT_EQ(made["pvs"]["bytes"], std::filesystem::file_size(sets));
+    EXPECT_LT(made["blockers"]["listed"].get<double>(), 0.8 * plain["blockers"]["listed"].get<double>());
+    EXPECT_EQ(made["blockers"]["drawn"], plain["blockers"]["drawn"]);
+    const json read = run({"--pvs", sets});
+    EXPECT_EQ(read["pvs"]["made"], false);
+    EXPECT_EQ(readTransfer(scratch / "a.tv").blocks[4].coefficients, expected);
+
+    const auto refused = [&](const std::vector<std::string>& more, int code, const std::string& fragment) {
+        std::vector<std::string> words = {"transfer", "cloth", "-o", scratch / "b.tv", "--pvs", sets};
+        words.insert(words.end(), more.begin(), more.end());
+        expectFailure(nacre(words), code, fragment);
+    };
+    refused({"--frames", "3:12"}, 1, "expected a set for frame 9, found none");
+    refused({"--frames", "3:8", "--lod-angle", "0.7"}, 1, "with these levels of detail, found others");
+    refused({"--lut", "64"}, 2, "--pvs: expected no --lut");
+    writeFile(sets, "NACRE_PV");
+    refused({"--frames", "3:8"}, 1, "a.pvs: expected visible sets");
+    EXPECT_EQ(scratch.fileCount(), 2u);
+}
+
 TEST(CommandTransfer, PaperMethodErrsMoreAndSaysItsTable) {
     const Scratch scratch;
     writeFile(scratch / "corner.obj", corner());
@@ -276,6 +312,7 @@ TEST(CommandTransfer, WrongUsageIsTwoInOneLine) {
         {{"--lut", "128", "--sides", "fine"}, "found 'fine'"},
         {{"--lut", "128", "--order", "2"}, "--order: expected no --lut"},
         {{"--turn", "10"}, "expected --ply"},
+        {{"--pvs-window", "4"}, "--pvs-window: expected --pvs"},
         {{"--ply", "a#b#.ply"}, "one row of #"},
     };
     for (const auto& [more, fragment] : cases) {

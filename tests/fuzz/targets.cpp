@@ -32,6 +32,7 @@
 #include "shading/volume_file.hpp"
 #include "transfer/exitant_radiance.hpp"
 #include "transfer/transfer_file.hpp"
+#include "transfer/visible_sets.hpp"
 
 namespace nacre::tests {
 
@@ -107,6 +108,12 @@ static void readTransferBytes(std::span<const std::uint8_t> bytes) {
     for (const std::uint32_t v : r.weldOf) r.blocks.at(0).positions.at(v);
 }
 
+static void readVisibleBytes(std::span<const std::uint8_t> bytes) {
+    const VisibleSets sets = parseVisibleSets(bytes, "input");
+    for (const VisibleSets::Window& w : sets.windows)
+        if (sets.at(w.first).size() != w.bits.size()) throw std::logic_error("a window without its set");
+}
+
 /// Scene files whose meshes are made by formula: the files that they name are not there.
 static void readSceneText(std::span<const std::uint8_t> bytes) {
     SceneOptions options;
@@ -170,6 +177,7 @@ const std::vector<FuzzTarget>& fuzzTargets() {
                                                     {"png", readPngBytes},
                                                     {"volume", readVolumeBytes},
                                                     {"transfer", readTransferBytes},
+                                                    {"visible", readVisibleBytes},
                                                     {"scene", readSceneText},
                                                     {"gltf", readGltfBytes},
                                                     {"iqm", readIqmBytes},
