@@ -86,7 +86,7 @@ SceneSpecular specular(const JsonField& field, const std::filesystem::path& fold
     field.requireKeys(
         {"ior", "reflection", "transmission", "partial", "surface", "texture", "fog", "fogDistance", "spread"});
     SceneSpecular out;
-    ifThere(field, "ior", [&](const JsonField& f) { out.ior = f.positive(); });
+    ifThere(field, "ior", [&](const JsonField& f) { out.ior = f.number(1e-3, 1e3); });
     ifThere(field, "reflection", [&](const JsonField& f) { out.reflection = f.color(); });
     for (const char* key : {"transmission", "partial"})
         if (const auto f = field.find(key); f && !out.ior) f->fail("expected \"ior\" beside it, found none");

@@ -3,6 +3,7 @@
 
 #include <epoxy/gl.h>
 
+#include "core/error.hpp"
 #include "reference/image_compare.hpp"
 #include "reference/scene_trace.hpp"
 #include "shading/image_output.hpp"
@@ -77,6 +78,7 @@ TEST(SpecularScene, TwoFacingMirrorsAtDepthEight) {
     options.depth = 8;
     const Pair pair = both(test::hallOfMirrors(), options, 4, "hall");
     EXPECT_GE(pair.views, 9u);
+    std::printf("depth 8: %.3f %% of pixels show another object\n", 100 * wrongShare(pair));
     EXPECT_LE(wrongShare(pair), kWrong);
     options.depth = 3;
     EXPECT_GT(wrongShare({pair.drawn, both(test::hallOfMirrors(), options).traced}), 2 * kWrong)
@@ -122,6 +124,47 @@ TEST(SpecularScene, AMirrorThatSeesOnlyItself) {
     const Pair pair = both(s.scene, {});
     EXPECT_EQ(wrongShare(pair), 0);
     EXPECT_EQ(pair.drawn.rgb(kSize / 2, kSize / 2), Rgb(0));
+}
+
+TEST(SpecularScene, WithoutLights) {
+    test::SpecularScene s;
+    s.face("mirror", {}, {0, 0, 0}, 0.3);
+    s.ball(Rgb(0), {0.3, 0.2, 1});
+    s.scene.materials.back().model = "lambert:kd=0.5";
+    const Pair pair = both(s.scene, {});
+    EXPECT_EQ(wrongShare(pair), 0);
+    for (const float v : pair.drawn.data()) EXPECT_EQ(v, 0);
+}
+
+/// Outlines of shadows in a map of 1024²; a light on the wrong side of the mirror is below 20 dB.
+constexpr double kShadowed = 32;
+
+TEST(SpecularScene, LampsAndTheirShadowMapsInsideMirrors) {
+    test::SpecularScene s;
+    s.face("mirror", {}, {0, 0, -1}, 0.25);
+    s.ball(Rgb(0.02), {0.3, 0, 0.2});
+    s.ball(Rgb(0.02), {-0.5, -0.4, 0.6}, 0.2);
+    s.square(Rgb(0.02), {0, -0.8, 0}, -kPi / 2, {1, 0, 0}, Vec3(3));
+    for (SceneMaterial& m : s.scene.materials)
+        if (!m.specular) m.model = "blinn-phong:n=20,kd=0.5,ks=0.2";
+    SceneLight lamp;
+    lamp.light = {false, {1.5, 2.5, 2}, Rgb(30), SpotCone{glm::normalize(Vec3(-1.5, -2.8, -2)), 0.4, 0.6}};
+    lamp.shadow = SceneShadow{};
+    SceneLight sun;
+    sun.light = {true, glm::normalize(Vec3(-1, 2, 1)), Rgb(0.5), {}};
+    sun.shadow = SceneShadow{};
+    s.scene.lights = {lamp, sun};
+    s.scene.camera.eye = {0.2, 0.6, 4};
+    const Pair pair = both(s.scene, {}, 4, "lamps");
+    EXPECT_GT(compareImages(pair.drawn, pair.traced, 1).psnrSrgb, kShadowed);
+}
+
+TEST(SpecularScene, OpenGlEsSaysThatItCannot) {
+    test::context(GlApi::Es3);
+    ProgramLoader loader(Glsl::Es300);
+    SceneRenderer renderer(loader, test::hallOfMirrors());
+    const RenderTarget target({.width = 16, .height = 16});
+    EXPECT_THROW(renderer.render(target), Error);
 }
 
 TEST(SpecularScene, IndexOneIsNoPane) {
