@@ -17,7 +17,7 @@ struct Source {
     const char *name, *file;
 };
 constexpr Source kSources[] = {
-    {"runner", "Testwuson.X"}, {"dancer", "BCN_Epileptic.X"}, {"fixer", "mrfixit.iqm"}, {"hand", "left.glb"}};
+    {"runner", "Testwuson.X"}, {"dancer", "BCN_Epileptic.X"}, {"fixer", "mrfixit.iqm"}, {"hand", "hand.glb"}};
 
 std::optional<fs::path> find(const fs::path& folder, const std::string& file) {
     std::error_code failed;

@@ -45,6 +45,16 @@ std::function<void(const std::string&)> positiveInto(std::function<void(double)>
     };
 }
 
+std::function<void(const std::string&)> finiteInto(double& target) {
+    return [&target](const std::string& text) {
+        double value = 0;
+        const auto [end, failure] = std::from_chars(text.data(), text.data() + text.size(), value);
+        if (failure != std::errc{} || end != text.data() + text.size() || !std::isfinite(value))
+            throw UsageError(fmt::format("expected a finite number, found '{}'", text));
+        target = value;
+    };
+}
+
 /// Words as a shell takes them back.
 static std::string quoted(const std::string& word) {
     static constexpr std::string_view kPlain =

@@ -55,20 +55,23 @@ double squareError(const ImageDifference& d) { return std::pow(10, -d.psnrSrgb /
 
 }  // namespace
 
-Image shoot(SceneRenderer& renderer, const SceneShot& shot) {
-    const int n = shot.samples;
-    const RenderTarget target({.width = n * shot.width, .height = n * shot.height});
-    renderer.render(target, shot.time);
-    const Image fine = target.read();
+Image shrunk(const Image& fine, int n) {
     if (n == 1) return fine;
-    Image out(shot.width, shot.height, 3);
-    for (int y = 0; y < shot.height; ++y)
-        for (int x = 0; x < shot.width; ++x) {
+    Image out(fine.width() / n, fine.height() / n, 3);
+    for (int y = 0; y < out.height(); ++y)
+        for (int x = 0; x < out.width(); ++x) {
             Rgb sum(0);
             for (int k = 0; k < n * n; ++k) sum += fine.rgb(n * x + k % n, n * y + k / n);
             out.setRgb(x, y, sum / double(n * n));
         }
     return out;
+}
+
+Image shoot(SceneRenderer& renderer, const SceneShot& shot) {
+    const int n = shot.samples;
+    const RenderTarget target({.width = n * shot.width, .height = n * shot.height});
+    renderer.render(target, shot.time);
+    return shrunk(target.read(), n);
 }
 
 SceneErrors measureScene(SceneRenderer& renderer, const Image& picture, const SceneShot& shot, int rays, bool shares,

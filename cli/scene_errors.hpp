@@ -19,6 +19,9 @@ struct SceneShot {
 };
 /// Both draw and trace specular surfaces to the depth of the renderer's switches.
 
+/// Means of n × n pixels. \param fine  RGB, n times as large
+Image shrunk(const Image& fine, int n);
+
 /// Draws with the renderer's switches and reads back.
 Image shoot(SceneRenderer& renderer, const SceneShot& shot);
 

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <filesystem>
 
+#include "cli/frame_range.hpp"
+#include "cli/numbers.hpp"
 #include "cli/output_file.hpp"
 #include "cli/terminal.hpp"
 #include "cli/verb.hpp"
@@ -20,13 +22,20 @@ namespace nacre::cli {
 
 namespace fs = std::filesystem;
 
-LightCoefficients readLight(const TransferLight& light, int order) {
-    if (light.files.empty()) {
-        LightCoefficients constant(static_cast<std::size_t>((order + 1) * (order + 1)), Rgb(0));
-        constant[0] = Rgb(std::sqrt(4 * kPi));
-        return constant;
-    }
-    std::vector<LightCoefficients> lights;
+void takeWeights(TransferLight& light, const std::string& text) {
+    if (text.empty()) return;
+    light.weights.resize(light.files.size());
+    bool good = parseNumbers(text, light.weights) && !light.files.empty();
+    for (const double w : light.weights) good = good && std::isfinite(w) && w >= 0;
+    if (!good)
+        throw UsageError(
+            fmt::format("--weights: expected a number >= 0 for each of {} --env, separated by commas, found '{}'",
+                        light.files.size(), text));
+}
+
+PlayedLight readLights(const TransferLight& light, int order) {
+    if (light.files.empty()) return {{whiteLight(order)}, {1}};
+    PlayedLight out;
     for (const std::string& file : light.files) {
         SourceOptions options;
         options.threads = light.threads;
@@ -36,17 +45,21 @@ LightCoefficients readLight(const TransferLight& light, int order) {
             tell(
                 fmt::format("{}: {} of {} texels negative: set to 0; {} not finite: replaced by their neighbours' mean",
                             file, texels.negative, texels.texels, texels.nonFinite));
-        lights.push_back(projectEnvironment(environment.map, order, light.threads).coefficients);
+        out.environments.push_back(projectEnvironment(environment.map, order, light.threads).coefficients);
     }
-    const std::vector<double> equal(lights.size(), 1.0 / static_cast<double>(lights.size()));
-    return blendedLights(lights, light.weights.empty() ? equal : light.weights);
+    out.weights = light.weights;
+    if (out.weights.empty()) out.weights.assign(light.files.size(), 1.0 / static_cast<double>(light.files.size()));
+    return out;
+}
+
+LightCoefficients readLight(const TransferLight& light, int order) {
+    const PlayedLight read = readLights(light, order);
+    return blendedLights(read.environments, read.weights);
 }
 
 std::string plyName(const std::string& pattern, int frame) {
-    const std::size_t begin = pattern.find('#');
-    if (begin == std::string::npos) return (fs::path(pattern) / fmt::format("frame_{:04}.ply", frame)).string();
-    const std::size_t end = std::min(pattern.find_first_not_of('#', begin), pattern.size());
-    return pattern.substr(0, begin) + fmt::format("{:0{}}", frame, end - begin) + pattern.substr(end);
+    if (pattern.find('#') != std::string::npos) return numberedName(pattern, frame);
+    return (fs::path(pattern) / fmt::format("frame_{:04}.ply", frame)).string();
 }
 
 void requirePlyPlace(const std::string& pattern, int frame) {

@@ -4,8 +4,7 @@
 #include <string>
 
 #include "core/progress.hpp"
-#include "transfer/exitant_radiance.hpp"
-#include "transfer/transfer_file.hpp"
+#include "shading/transfer_player.hpp"
 
 namespace nacre::cli {
 
@@ -17,10 +16,15 @@ struct TransferLight {
     unsigned threads = 0;
 };
 
-/// The environments' coefficients, blended. \throws as readEnvironment
+/// \param text  numbers ≥ 0 separated by commas, one for each file; empty: none are given \throws UsageError
+void takeWeights(TransferLight& light, const std::string& text);
+
+/// Each environment's coefficients, and what each weighs. \throws as readEnvironment
+PlayedLight readLights(const TransferLight& light, int order);
+/// The same, blended.
 LightCoefficients readLight(const TransferLight& light, int order);
 
-/// The file of a frame: `pattern` with its # … # replaced by the number, or, without any #, pattern/frame_0000.ply.
+/// The file of a frame: numberedName, or, without any #, pattern/frame_0000.ply.
 std::string plyName(const std::string& pattern, int frame);
 
 /// \throws UsageError for # in two places or in a folder's name; nacre::Error when nothing can be written there

@@ -5,9 +5,13 @@
 #include <algorithm>
 #include <bit>
 #include <filesystem>
+#include <numeric>
 
 #include "cli/output_file.hpp"
 #include "core/error.hpp"
+#include "reference/glossy_trace.hpp"
+#include "shading/scene_bounds.hpp"
+#include "transfer/glossy_transfer.hpp"
 #include "transfer/paper_method.hpp"
 #include "transfer/visible_sets.hpp"
 
@@ -47,7 +51,14 @@ public:
         else
             self_.emplace(mesh, rest, o);
     }
+    /// \param gloss  of the recording; none: matt
+    void shine(const std::optional<RecordedGloss>& gloss, const SelfTransferOptions& o) {
+        if (!gloss) return;
+        gloss_ = gloss;
+        lobe_.emplace(o.mask, o.order, MaskDetail::Bits, phongBrdf(static_cast<float>(gloss->exponent)));
+    }
     TransferFrame compute(std::span<const glm::vec3> positions, std::span<const std::uint64_t> visible = {}) const {
+        if (lobe_) return computeGlossy(*self_, positions, *lobe_, gloss_->specular, gloss_->eye);
         return paper_ ? paper_->compute(positions) : self_->compute(positions, {}, {}, {visible, {}});
     }
     const SelfTransfer& self() const { return *self_; }  ///< unless the paper's
@@ -59,7 +70,23 @@ private:
     BlockingSides sides_;  ///< of the paper's method, resolved as it does
     std::optional<SelfTransfer> self_;
     std::optional<PaperMethod> paper_;
+    std::optional<RecordedGloss> gloss_;
+    std::optional<GlossyTransfer> lobe_;
 };
+
+/// With the viewer where none was named.
+RecordedGloss glossOf(const GlossPlan& plan, const AnimatedMesh& animation, int first, int end) {
+    RecordedGloss out{plan.exponent, plan.specular, plan.eye.value_or(Vec3(0))};
+    if (plan.eye) return out;
+    SceneBounds bounds;
+    for (int f = first; f < end; ++f) {
+        const std::vector<glm::vec3>& frame = animation.frames[static_cast<std::size_t>(f)];
+        if (!allFinite(frame)) continue;
+        for (const glm::vec3& p : frame) bounds.add(p);
+    }
+    out.eye = cameraSeeing(bounds).eye;
+    return out;
+}
 
 /// Reads the plan's sets, or makes and writes them. \param frames  that will be computed
 VisibleSets visibleSets(const SelfTransfer& transfer, const TransferPlan& plan,
@@ -112,7 +139,9 @@ TransferRun runTransfer(const AnimatedMesh& animation, const TransferPlan& plan,
     out.weldOf = mesh.weldOf;
     out.triangles = mesh.triangles;
     const std::vector<glm::vec3> restPositions = weldedPositions(mesh, frameAt(rest));
-    const Method transfer(mesh, restPositions, plan);
+    Method transfer(mesh, restPositions, plan);
+    if (plan.gloss) out.gloss = glossOf(*plan.gloss, animation, first, end);
+    transfer.shine(out.gloss, plan.options);
     run.coarseTriangles = transfer.coarseTriangles();
     run.closed = mesh.closed;
     run.sides = transfer.sides();
@@ -157,11 +186,29 @@ static std::vector<TransferRecording::Frame> spread(const std::vector<TransferRe
     return out;
 }
 
+static std::vector<glm::vec3> normalsOf(const TransferRecording& recording, const TransferRecording::Block& block) {
+    return vertexNormals(recording.triangles, cornersOfVertices(recording.triangles, recording.vertexCount()),
+                         block.positions);
+}
+
+std::vector<double> tracedVectors(const TransferRecording& recording, const TransferRecording::Block& block,
+                                  std::size_t rays) {
+    std::vector<std::uint32_t> all(recording.vertexCount());
+    std::iota(all.begin(), all.end(), 0u);
+    const std::vector<glm::vec3> normals = normalsOf(recording, block);
+    std::vector<double> out = tracedTransfer(recording.triangles, block.positions, normals, all, recording.order, rays);
+    if (!recording.gloss) return out;
+    const auto [exponent, specular, eye] = *recording.gloss;
+    const std::vector<double> lobes = tracedGlossyTransfer(recording.triangles, block.positions, normals, eye,
+                                                           phongLobe(exponent), recording.order, rays);
+    for (std::size_t i = 0; i < out.size(); ++i) out[i] = (1 - specular) * out[i] + specular * lobes[i];
+    return out;
+}
+
 TransferMeasure measureTransfer(const TransferRecording& recording, std::size_t rays, int frames,
                                 const Progress& progress) {
     TransferMeasure out;
     const std::size_t count = recording.coefficientCount();
-    const CornersOfVertices corners = cornersOfVertices(recording.triangles, recording.vertexCount());
     std::vector<float> found;
     std::vector<double> truth;
     const std::vector<TransferRecording::Frame> chosen = spread(recording.frames, frames);
@@ -169,16 +216,13 @@ TransferMeasure measureTransfer(const TransferRecording& recording, std::size_t 
         report(progress, "tracing", static_cast<double>(out.frames.size()) / static_cast<double>(chosen.size()));
         out.frames.push_back(frame.number);
         const TransferRecording::Block& block = recording.blocks[static_cast<std::size_t>(frame.block)];
-        const std::vector<glm::vec3> normals = vertexNormals(recording.triangles, corners, block.positions);
-        std::vector<std::uint32_t> vertices;
-        for (std::uint32_t v = 0; v < normals.size(); ++v)
-            if (normals[v] != glm::vec3(0)) vertices.push_back(v);
-        const std::vector<double> traced =
-            tracedTransfer(recording.triangles, block.positions, normals, vertices, recording.order, rays);
-        truth.insert(truth.end(), traced.begin(), traced.end());
-        for (const std::uint32_t v : vertices) {
-            const auto begin = block.coefficients.begin() + static_cast<std::ptrdiff_t>(v * count);
-            found.insert(found.end(), begin, begin + static_cast<std::ptrdiff_t>(count));
+        const std::vector<glm::vec3> normals = normalsOf(recording, block);
+        const std::vector<double> traced = tracedVectors(recording, block, rays);
+        for (std::size_t v = 0; v < normals.size(); ++v) {
+            if (normals[v] == glm::vec3(0)) continue;
+            const auto from = static_cast<std::ptrdiff_t>(v * count), to = from + static_cast<std::ptrdiff_t>(count);
+            truth.insert(truth.end(), traced.begin() + from, traced.begin() + to);
+            found.insert(found.end(), block.coefficients.begin() + from, block.coefficients.begin() + to);
         }
     }
     out.error = transferError(found, truth, count);

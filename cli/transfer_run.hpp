@@ -31,9 +31,16 @@ struct TransferRun {
     std::optional<Sets> sets{};
 };
 
+/// Phong's lobe for one viewer.
+struct GlossPlan {
+    double exponent = 0, specular = 0.5;
+    std::optional<Vec3> eye{};  ///< none: where `nacre render` looks from, cameraSeeing all frames
+};
+
 struct TransferPlan {
     int first = 0, end = 0;  ///< frames first … end − 1
     SelfTransferOptions options;
+    std::optional<GlossPlan> gloss{};  ///< without sets
     std::string visibleSets{};  ///< file of potentially visible sets: read when it is there, else made and written
     int windowFrames = 0;       ///< of a set that is made; 0 = all
     std::optional<int> lut{};   ///< by PaperMethod with this table, and rings, coarse, sides and threads of the options
@@ -43,6 +50,10 @@ struct TransferPlan {
 /// or is of another mesh, other levels of detail or other frames
 TransferRun runTransfer(const AnimatedMesh& animation, const TransferPlan& plan, const std::string& name,
                         const Progress& progress);
+
+/// A frame's truth by rays, with the recording's gloss: [vertex][coefficients], 0 for vertices without a normal.
+std::vector<double> tracedVectors(const TransferRecording& recording, const TransferRecording::Block& block,
+                                  std::size_t rays);
 
 struct TransferMeasure {
     TransferError error;

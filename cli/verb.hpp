@@ -62,5 +62,7 @@ std::function<void(const std::string&)> integerInto(std::function<void(long long
                                                     long long high);
 /// Finite and > 0.
 std::function<void(const std::string&)> positiveInto(std::function<void(double)> store);
+/// Finite, of either sign.
+std::function<void(const std::string&)> finiteInto(double& target);
 
 }  // namespace nacre::cli

@@ -2,26 +2,25 @@
 #include <fmt/format.h>
 
 #include <charconv>
-#include <filesystem>
 #include <memory>
 #include <nlohmann/json.hpp>
 
 #include "cli/numbers.hpp"
 #include "cli/output_file.hpp"
+#include "cli/pass_list.hpp"
+#include "cli/picture_output.hpp"
+#include "cli/render_transfer.hpp"
 #include "cli/scene_errors.hpp"
 #include "cli/terminal.hpp"
 #include "cli/verb.hpp"
 #include "core/error.hpp"
 #include "shading/context.hpp"
 #include "shading/image_output.hpp"
-#include "shading/multipass/pass_schedule.hpp"
-#include "shading/scene_bounds.hpp"
 #include "shading/scene_file.hpp"
 
 namespace nacre::cli {
 namespace {
 
-namespace fs = std::filesystem;
 using nlohmann::json;
 
 struct Settings {
@@ -31,27 +30,27 @@ struct Settings {
     int rays = 4;
     SpecularOptions specular;
     bool reference = false, shares = false, asJson = false, passes = false;
+    TransferPictures transfer;  ///< when the scene is a transfer file
+    std::string weights;
+    std::string sceneFlag, transferFlag;  ///< the first option given that only scenes have, only transfer files
 };
 
-std::string endingOf(const std::string& output) {
-    std::string ending = fs::path(output).extension().string();
-    for (char& c : ending) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-    if (ending != ".exr" && ending != ".png")
-        throw UsageError(fmt::format("-o: expected a name that ends in .exr or .png, found '{}'", output));
-    return ending;
+/// An option of one kind of file alone: notes in `flagGiven` that it was given.
+std::function<void(const std::string&)> only(std::string& flagGiven, const char* flag,
+                                             std::function<void(const std::string&)> take) {
+    return [&flagGiven, flag, take = std::move(take)](const std::string& text) {
+        if (flagGiven.empty()) flagGiven = flag;
+        take(text);
+    };
 }
 
-/// NAME.exr -> NAME-reference.exr
-std::string beside(const std::string& output, const char* what, const std::string& ending) {
-    const fs::path path(output);
-    return (path.parent_path() / (path.stem().string() + "-" + what + ending)).string();
-}
-
-void write(const Image& image, const std::string& output, double white) {
-    if (endingOf(output) == ".exr")
-        writeExr(image, output);
-    else
-        writePng(image, output, {white});
+/// "AZIMUTH,ELEVATION"
+Vec2 viewOf(const std::string& text) {
+    double v[2];
+    if (!parseNumbers(text, v) || !std::isfinite(v[0]) || !(std::abs(v[1]) < 90))
+        throw UsageError(
+            fmt::format("expected AZIMUTH,ELEVATION in degrees, the latter between -90 and 90, found '{}'", text));
+    return {v[0], v[1]};
 }
 
 void takeSize(SceneShot& shot, const std::string& text) {
@@ -66,10 +65,6 @@ void takeSize(SceneShot& shot, const std::string& text) {
     };
     shot.width = number(std::string_view(text).substr(0, x));
     shot.height = number(std::string_view(text).substr(x == std::string::npos ? text.size() : x + 1));
-}
-
-json differenceJson(const ImageDifference& d) {
-    return {{"psnr", d.psnrSrgb}, {"psnr_linear", d.psnrLinear}, {"relative_rmse", d.relative}, {"max_abs", d.maxAbs}};
 }
 
 json toJson(const SceneErrors& e) {
@@ -98,35 +93,23 @@ std::string errorText(const SceneErrors& e) {
     return out;
 }
 
-json passesJson(const PassSchedule& schedule) {
-    json out = {{"views", schedule.views.size()},
-                {"levels", schedule.deepest},
-                {"views_left_out", schedule.unseen},
-                {"passes", json::array()}};
-    for (const Pass& p : schedule.passes)
-        out["passes"].push_back({{"kind", toString(p.kind)},
-                                 {"view", p.view},
-                                 {"face", p.face},
-                                 {"stencil", p.stencil},
-                                 {"scissor", {p.scissor.x, p.scissor.y, p.scissor.width, p.scissor.height}}});
-    return out;
-}
-
-/// The list alone, which takes no OpenGL.
-void printPasses(const SceneDescription& scene, const Settings& s) {
-    const SceneBounds box = boundsAt(scene, s.shot.time);
-    const int n = s.shot.samples;
-    const PassSchedule schedule =
-        makeSchedule(specularFaces(scene, nodeTransforms(scene, s.shot.time)),
-                     {scene.camera, n * s.shot.width, n * s.shot.height, box.low, box.high}, s.specular);
-    std::vector<std::string> names;
-    for (const SceneNode& node : scene.nodes) names.push_back(node.name);
-    putData(s.asJson ? passesJson(schedule).dump(2) + "\n" : passListText(schedule, names));
+void runTransferFile(const Context& context, const Settings& s) {
+    if (!s.sceneFlag.empty())
+        throw UsageError(fmt::format("{}: expected a scene, found the transfer file {}", s.sceneFlag, s.scene));
+    TransferPictures p = s.transfer;
+    p.file = s.scene, p.output = s.output, p.shot = s.shot, p.reference = s.reference, p.asJson = s.asJson;
+    p.light.white = s.white;
+    takeWeights(p.light, s.weights);
+    renderTransfer(context, p);
 }
 
 void runRender(const Context& context, const Settings& s) {
-    if (s.output.empty() && !s.passes) throw UsageError("expected --output, or --passes, found neither");
-    const std::string ending = s.passes ? "" : endingOf(s.output);
+    if (s.output.empty() && !s.passes) throw UsageError("--output: expected a name, found none");
+    if (isTransferFile(s.scene)) return runTransferFile(context, s);
+    if (!s.transferFlag.empty())
+        throw UsageError(
+            fmt::format("{}: expected a file that nacre transfer wrote, found {}", s.transferFlag, s.scene));
+    const std::string ending = s.passes ? "" : pictureEnding(s.output);
     const Progress progress = terminalProgress(context.quiet);
     report(progress, "reading " + s.scene, 0);
     SceneOptions reading;
@@ -135,8 +118,7 @@ void runRender(const Context& context, const Settings& s) {
     SceneDescription scene = readScene(s.scene, reading);
     if (s.passes) {
         endProgress();
-        checkSpecular(scene);
-        return printPasses(scene, s);
+        return putData(passList(scene, s.shot, s.specular, s.asJson));
     }
     const nacre::Context gl(GlApi::Core33);
     ProgramLoader loader;
@@ -157,61 +139,109 @@ void runRender(const Context& context, const Settings& s) {
     double white = s.white > 0 ? s.white : pictureWhite(picture);
     std::string text = fmt::format("{}: {} x {} pixels of {} samples, {} programs\n", s.output, s.shot.width,
                                    s.shot.height, s.shot.samples * s.shot.samples, renderer.programs().size());
-    write(picture, s.output, white);  // before the trace: what can't be written fails now
+    writePicture(picture, s.output, white);  // before the trace: what can't be written fails now
     if (s.reference || s.shares) {
         const SceneErrors errors = measureScene(renderer, picture, s.shot, s.rays, s.shares, progress);
         if (s.white == 0) white = errors.white;
-        write(errors.reference, beside(s.output, "reference", ending), white);
-        writePng(differenceImage(picture, errors.reference, errors.white, 0.2), beside(s.output, "difference", ".png"));
+        writePicture(errors.reference, besideName(s.output, "reference", ending), white);
+        writePng(differenceImage(picture, errors.reference, errors.white, 0.2),
+                 besideName(s.output, "difference", ".png"));
         data["errors"] = toJson(errors);
         text += errorText(errors);
         endProgress();
         for (const std::string& note : errors.notes) tell(note);
     }
-    if (s.reference || s.shares) write(picture, s.output, white);  // both with one white
+    if (s.reference || s.shares) writePicture(picture, s.output, white);  // both with one white
     endProgress();
     putData(s.asJson ? data.dump(2) + "\n" : text);
+}
+
+constexpr const char* kDetails =
+    "Scenes: .json, .gltf, .glb, or a mesh file, which gets a camera and a light. EXR holds linear radiance, PNG "
+    "is\n"
+    "sRGB of radiance over a white, 1.5 times the 90th percentile (of the reference, when there is one).\n"
+    "With --reference the same scene is traced from the unbaked sources: OUT-reference beside OUT, and\n"
+    "OUT-difference.png, in which white stands for 0.2 in sRGB. PSNR is of sRGB values clamped to [0, 1]. A "
+    "second\n"
+    "figure is against a reference whose meshes also block the surrounding's light, which no pass here does.\n"
+    "With --shares each approximation is switched off alone: PSNR of the picture without it against the full\n"
+    "reference; PSNR of both without it (BRDF: the reference takes the baked one); and the share of the mean "
+    "square\n"
+    "error that goes with it.\n"
+    "A file of nacre transfer holds its mesh: its frames are drawn by their vertices' radiance (albedo 1, back faces\n"
+    "black) in the light of --env, turned and blended, with the first frame's white. With --reference the same\n"
+    "vertices' transfer comes from rays.\n"
+    "Example: a second of the cloth while the light turns a quarter:\n"
+    "  nacre transfer cloth -o cloth.tv --frames 0:30\n"
+    "  nacre render cloth.tv -o cloth_###.png --env city.hdr --turn 90";
+
+std::vector<Option> sceneOptions(const std::shared_ptr<Settings>& s) {
+    return {{"--time", "S", "Seconds into a scene's animation (default 0)",
+             only(s->sceneFlag, "--time", finiteInto(s->shot.time))},
+            {"--depth", "N", "Mirrors and panes along a path from the eye (default 4)",
+             only(s->sceneFlag, "--depth",
+                  integerInto([s](long long v) { s->specular.depth = static_cast<int>(v); }, 0, 1000))},
+            {"--passes", "", "Print the passes that draw a scene, and draw nothing",
+             only(s->sceneFlag, "--passes", into(s->passes))},
+            {"--rays", "N", "Of a scene's reference: N x N rays a pixel (default 4)",
+             only(s->sceneFlag, "--rays", integerInto([s](long long v) { s->rays = static_cast<int>(v); }, 1, 16))},
+            {"--shares", "", "Each approximation's share of a scene's error; implies --reference",
+             only(s->sceneFlag, "--shares", into(s->shares))}};
+}
+
+std::vector<Option> transferOptions(const std::shared_ptr<Settings>& s) {
+    TransferPictures& t = s->transfer;
+    const auto own = [s](const char* flag, const char* value, const char* summary,
+                         std::function<void(const std::string&)> take) {
+        return Option{flag, value, summary, only(s->transferFlag, flag, std::move(take))};
+    };
+    Option environments =
+        own("--env", "FILE", "Radiance map that lights; may be repeated, and is blended (default: white)",
+            [&t](const std::string& given) { t.light.files.push_back(given); });
+    environments.repeats = true;
+    return {
+        own("--frame", "N", "Frame to draw (default the first)",
+            integerInto(
+                [&t](long long v) {
+                    t.frames = {static_cast<int>(v), static_cast<int>(v) + 1};
+                },
+                0, 1 << 30)),
+        own("--frames", "A:B", "Frames A to B - 1, one picture each: OUT has a row of # for the number",
+            [&t](const std::string& given) { t.frames = parseFrames(given); }),
+        environments,
+        own("--weights", "W,W,...", "Of each --env (default equal, of sum 1)", into(s->weights)),
+        own("--turned", "DEGREES", "The light's turn about y, from +z towards +x (default 0)", finiteInto(t.fromDeg)),
+        own("--turn", "DEGREES", "And so far more in a second (default 0)", finiteInto(t.light.turnDeg)),
+        own("--view", "AZ,EL", "Seen from there, degrees from +z towards +x and up (default 19.3,20.7)",
+            [&t](const std::string& given) { t.viewDeg = viewOf(given); }),
+        own("--vertex-rays", "N", "Of the reference, a vertex (default 1024)",
+            integerInto([&t](long long v) { t.rays = static_cast<std::size_t>(v); }, 1, 1 << 24))};
+}
+
+std::vector<Option> options(const std::shared_ptr<Settings>& s) {
+    std::vector<Option> out = {
+        {"scene", "FILE", "The scene, or a file that nacre transfer wrote", into(s->scene), true},
+        {"-o,--output", "OUT", "The picture to write, .exr or .png", into(s->output)},
+        {"--size", "WxH", "Pixels (default 512x512)", [s](const std::string& text) { takeSize(s->shot, text); }},
+        {"--samples", "N", "N x N shaded samples a pixel (default 2)",
+         integerInto([s](long long v) { s->shot.samples = static_cast<int>(v); }, 1, 8)},
+        {"--white", "W", "Radiance shown as white in PNG", positiveInto([s](double v) { s->white = v; })},
+        {"--reference", "", "Trace the same, and print the error", into(s->reference)}};
+    for (Option& option : sceneOptions(s)) out.push_back(std::move(option));
+    for (Option& option : transferOptions(s)) out.push_back(std::move(option));
+    out.push_back({"--json", "", "One JSON object on standard output", into(s->asJson)});
+    return out;
 }
 
 }  // namespace
 
 Verb renderVerb(Context& context) {
     const auto s = std::make_shared<Settings>();
-    Verb verb{"render", "Draw a scene, and the same scene ray-traced, with the error between both", "", {}, {}};
-    verb.details =
-        "Scenes: .json, .gltf, .glb, or a mesh file, which gets a camera and a light. EXR holds linear radiance, PNG "
-        "is\n"
-        "sRGB of radiance over a white, 1.5 times the 90th percentile (of the reference, when there is one).\n"
-        "With --reference the same scene is traced from the unbaked sources: OUT-reference beside OUT, and\n"
-        "OUT-difference.png, in which white stands for 0.2 in sRGB. PSNR is of sRGB values clamped to [0, 1]. A "
-        "second\n"
-        "figure is against a reference whose meshes also block the surrounding's light, which no pass here does.\n"
-        "With --shares each approximation is switched off alone: PSNR of the picture without it against the full\n"
-        "reference; PSNR of both without it (BRDF: the reference takes the baked one); and the share of the mean "
-        "square\n"
-        "error that goes with it.";
-    verb.options = {
-        {"scene", "FILE", "The scene", into(s->scene), true},
-        {"-o,--output", "OUT", "The picture to write, .exr or .png", into(s->output)},
-        {"--size", "WxH", "Pixels (default 512x512)", [s](const std::string& text) { takeSize(s->shot, text); }},
-        {"--samples", "N", "N x N shaded samples a pixel (default 2)",
-         integerInto([s](long long v) { s->shot.samples = static_cast<int>(v); }, 1, 8)},
-        {"--time", "S", "Seconds into the animation (default 0)",
-         [s](const std::string& text) {
-             double v[1];
-             if (!parseNumbers(text, v) || !std::isfinite(v[0]))
-                 throw UsageError(fmt::format("expected a finite number, found '{}'", text));
-             s->shot.time = v[0];
-         }},
-        {"--depth", "N", "Mirrors and panes along a path (default 4)",
-         integerInto([s](long long v) { s->specular.depth = static_cast<int>(v); }, 0, 1000)},
-        {"--passes", "", "Print the passes that draw the scene, and draw nothing", into(s->passes)},
-        {"--white", "W", "Radiance shown as white in PNG", positiveInto([s](double v) { s->white = v; })},
-        {"--reference", "", "Trace the same scene, and print the error", into(s->reference)},
-        {"--rays", "N", "Of the reference: N x N rays a pixel (default 4)",
-         integerInto([s](long long v) { s->rays = static_cast<int>(v); }, 1, 16)},
-        {"--shares", "", "Each approximation's share of the error; implies --reference", into(s->shares)},
-        {"--json", "", "One JSON object on standard output", into(s->asJson)}};
+    Verb verb{"render",
+              "Draw a scene, or the frames of a transfer file, beside the same by rays, with the error between both",
+              kDetails,
+              options(s),
+              {}};
     verb.run = [s, &context] { runRender(context, *s); };
     return verb;
 }

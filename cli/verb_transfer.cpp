@@ -1,10 +1,10 @@
 // nacre transfer: light transfer of a moving mesh's vertices, timed and measured.
 #include <fmt/format.h>
 
-#include <charconv>
 #include <filesystem>
 #include <memory>
 
+#include "cli/frame_range.hpp"
 #include "cli/numbers.hpp"
 #include "cli/output_file.hpp"
 #include "cli/terminal.hpp"
@@ -34,35 +34,23 @@ struct Settings {
     bool asJson = false;
 };
 
-/// a:b, a:, :b
-void takeFrames(Settings& s, const std::string& text) {
-    const std::size_t colon = text.find(':');
-    const auto wrong = [&] {
-        return UsageError(fmt::format("expected A:B, frames A to B - 1 with 0 <= A < B, found '{}'", text));
-    };
-    if (colon == std::string::npos) throw wrong();
-    const auto number = [&](std::string_view part, int fallback) {
-        int value = fallback;
-        if (part.empty()) return value;
-        const auto [end, failure] = std::from_chars(part.data(), part.data() + part.size(), value);
-        if (failure != std::errc{} || end != part.data() + part.size() || value < 0) throw wrong();
-        return value;
-    };
-    s.plan.first = number(std::string_view(text).substr(0, colon), 0);
-    s.plan.end = number(std::string_view(text).substr(colon + 1), 0);
-    const bool open = colon + 1 == text.size();
-    if (!open && s.plan.end <= s.plan.first) throw wrong();
+GlossPlan& gloss(Settings& s) {
+    if (!s.plan.gloss) s.plan.gloss.emplace();
+    return *s.plan.gloss;
 }
 
-void takeWeights(Settings& s) {
-    if (s.weights.empty()) return;
-    s.light.weights.resize(s.light.files.size());
-    bool good = parseNumbers(s.weights, s.light.weights) && !s.light.files.empty();
-    for (const double w : s.light.weights) good = good && std::isfinite(w) && w >= 0;
-    if (!good)
-        throw UsageError(
-            fmt::format("--weights: expected a number >= 0 for each of {} --env, separated by commas, found '{}'",
-                        s.light.files.size(), s.weights));
+void takeSpecular(Settings& s, const std::string& text) {
+    double v[1];
+    if (!parseNumbers(text, v) || !(v[0] >= 0 && v[0] <= 1))
+        throw UsageError(fmt::format("expected a number 0 to 1, found '{}'", text));
+    gloss(s).specular = v[0];
+}
+
+void takeEye(Settings& s, const std::string& text) {
+    double v[3];
+    const Vec3 eye = parseNumbers(text, v) ? Vec3(v[0], v[1], v[2]) : Vec3(NAN);
+    if (!isFinite(eye)) throw UsageError(fmt::format("expected three finite numbers X,Y,Z, found '{}'", text));
+    gloss(s).eye = eye;
 }
 
 BlockingSides sidesOf(const std::string& name) {
@@ -189,12 +177,17 @@ std::string text(const Settings& s, const TransferRun& run, const json& data) {
 }
 
 void runTransferVerb(const Context& context, Settings s) {
-    takeWeights(s);
+    takeWeights(s.light, s.weights);
     if (s.ply.empty() && (s.light.turnDeg != 0 || s.light.white != 0))
         throw UsageError("--turn, --white: expected --ply, found none");
     if (s.plan.lut && !s.notWithLut.empty())
-        throw UsageError(fmt::format(
-            "{}: expected no --lut, whose method has 32 x 32 bits, order 4 and one coarse mesh", s.notWithLut));
+        throw UsageError(
+            fmt::format("{}: expected no --lut, whose method is matt and has 32 x 32 bits, order 4 and one coarse mesh",
+                        s.notWithLut));
+    if (s.plan.gloss && s.plan.gloss->exponent == 0)
+        throw UsageError("--specular, --eye: expected --glossy, found none");
+    if (s.plan.gloss && !s.plan.visibleSets.empty())
+        throw UsageError("--glossy: expected no --pvs, which is for matt transfer");
     s.plan.options.rings = s.rings.value_or(s.plan.lut ? PaperMethodOptions{}.rings : SelfTransferOptions{}.rings);
     s.plan.options.sides = sidesOf(s.sides);
     if (s.plan.lut && s.plan.options.sides == BlockingSides::Fine)
@@ -243,16 +236,6 @@ void runTransferVerb(const Context& context, Settings s) {
                             run.recording.frames.size(), s.output));
 }
 
-/// Finite, of either sign.
-std::function<void(const std::string&)> degreesInto(double& target) {
-    return [&target](const std::string& given) {
-        double v[1];
-        if (!parseNumbers(given, v) || !std::isfinite(v[0]))
-            throw UsageError(fmt::format("expected a finite number, found '{}'", given));
-        target = v[0];
-    };
-}
-
 constexpr const char* kDetails =
     "MODEL is an animated file (glTF, FBX, .X, MD2, IQM, ...), a mesh that stands still, or one of cloth, chess, which "
     "are\n"
@@ -265,8 +248,10 @@ constexpr const char* kDetails =
     "a vertex without a normal gets zeros; a frame with positions that aren't finite is refused: the others are "
     "written,\n"
     "and the exit code is 1.\n"
+    "With --glossy N, V is (1 - S) of the matt one + S that of (N + 2)/2pi (r.s)^N about the mirrored view r.\n"
     "Speed is wall time of the computation alone, after a frame to warm up; the split is CPU time of all threads.\n"
-    "Transform: moving and listing blockers, and culling them. Error: mean over vertices of |V - truth| / |truth|, "
+    "Transform: moving and listing blockers, and culling them; lobes count as rasterization. Error: mean over vertices "
+    "of |V - truth| / |truth|, "
     "with "
     "truth\n"
     "from --reference N rays a vertex through the full mesh; buried vertices, which see less than a hundredth, count "
@@ -286,7 +271,10 @@ std::vector<Option> options(const std::shared_ptr<Settings>& s) {
         {"model", "MODEL", "Animated mesh, or cloth, chess", into(s->model), true},
         {"-o,--output", "OUT", "The file to write", into(s->output), true},
         {"--frames", "A:B", "Frames A to B - 1, counted from 0 (default all)",
-         [s](const std::string& given) { takeFrames(*s, given); }},
+         [s](const std::string& given) {
+             const FrameRange range = parseFrames(given);
+             s->plan.first = range.first, s->plan.end = range.end;
+         }},
         {"--clip", "NAME", "Of the file's animations, by name or number (default the first)", into(s->clip)},
         {"--mask",
          "N",
@@ -316,6 +304,12 @@ std::vector<Option> options(const std::shared_ptr<Settings>& s) {
          "HEMI's method as printed, to compare with, with a table of 6 L x L planes, to 512 (the paper's: 128); 0: "
          "exact planes",
          integerInto([s](long long v) { s->plan.lut = static_cast<int>(v); }, 0, 512)},
+        {"--glossy", "N", "Phong's lobe of this exponent too, as seen from --eye: the coefficients are one viewer's",
+         own("--glossy", positiveInto([s](double v) { gloss(*s).exponent = v; }))},
+        {"--specular", "S", "Share of the lobe, the rest is matt (default 0.5)",
+         own("--specular", [s](const std::string& given) { takeSpecular(*s, given); })},
+        {"--eye", "X,Y,Z", "The viewer of --glossy (default: where nacre render looks from)",
+         own("--eye", [s](const std::string& given) { takeEye(*s, given); })},
         {"--sides",
          "NAME",
          "Sides that block: front, both, fine (both of the mesh, front of its levels), by the mesh (auto, default)",
@@ -341,7 +335,7 @@ std::vector<Option> options(const std::shared_ptr<Settings>& s) {
          true},
         {"--weights", "W,W,...", "Of each --env (default equal, of sum 1)", into(s->weights)},
         {"--turn", "DEGREES", "The light turns about y, from +z towards +x, so far in a second (default 0)",
-         degreesInto(s->light.turnDeg)},
+         finiteInto(s->light.turnDeg)},
         {"--ply", "PLACE", "Also coloured meshes: a folder, or a name like cloth_####.ply", into(s->ply)},
         {"--white", "W", "Radiance shown as white in PLY (default 1.5 x the first frame's 90th percentile)",
          positiveInto([s](double v) { s->light.white = v; })},

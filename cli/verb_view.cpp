@@ -55,15 +55,28 @@ Verb viewVerb(Context&) {
     const auto passFlag = [words](const char* flag) {
         return [words, flag](const std::string&) { words->emplace_back(flag); };
     };
-    Verb verb{"view", "Show a scene or a mesh in a window", {}, {}, {}};
+    Verb verb{"view", "Show a scene, a mesh or a transfer file in a window", {}, {}, {}};
     verb.details =
         "Drag to orbit, wheel to zoom, F1 for all keys. The panel changes materials, lights and methods, and compares\n"
-        "with the ray-traced reference. Scenes, shaders and baked assets are read again when their files change.";
+        "with the ray-traced reference. Scenes, shaders and baked assets are read again when their files change.\n"
+        "A moving mesh with its light transfer plays: Ctrl + drag turns the light, the panel blends environments. "
+        "With\n"
+        "--transfer the vertices that face the viewer are computed for each frame, and nothing twice.";
     verb.options = {
-        {"file", "FILE", "Scene (.json, .gltf, .glb) or mesh (.obj, .ply, .off)", into(*file), true},
+        {"file", "FILE", "Scene (.json, .gltf, .glb), mesh (.obj, .ply, .off), or what nacre transfer wrote",
+         into(*file), true},
         {"--size", "WxH", "Of the picture, beside the panel (default 800x600)", pass("--size")},
         {"--samples", "N", "Samples a pixel, 1 to 16 (default 1)", pass("--samples")},
         {"--white", "L", "Radiance shown as white (default: fitted to the first picture)", pass("--white")},
+        {"--transfer", "", "Self-shadows of a moving mesh (a file, or cloth, chess), computed for each frame shown",
+         passFlag("--transfer")},
+        {"--env",
+         "FILE",
+         "Radiance map that lights a transfer file or --transfer (default: white); several blend",
+         pass("--env"),
+         false,
+         {},
+         true},
         {"--assets", "DIR", "Another folder whose baked assets are offered", pass("--assets")},
         {"--screenshots", "DIR", "Folder for screenshots (default: the current one)", pass("--screenshots")},
         {"--reference-passes", "N", "Samples a pixel of the reference (default 16)", pass("--reference-passes")},

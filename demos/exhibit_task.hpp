@@ -41,6 +41,11 @@ const std::vector<NamedExhibit>& transferExhibits();
 /// shadow_exhibits.cpp
 Exhibit shadowStudyExhibit(const Task& task);
 
+/// transfer_gloss_exhibit.cpp
+Exhibit transferGlossExhibit(const Task& task);
+/// transfer_objects_exhibit.cpp
+Exhibit transferObjectsExhibit(const Task& task);
+
 /// environment_sweeps.cpp
 Exhibit ggxSweepExhibit(const Task& task);
 Exhibit sunExhibit(const Task& task);

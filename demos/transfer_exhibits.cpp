@@ -252,9 +252,15 @@ Exhibit tables(const Task& task) {
 }  // namespace
 
 const std::vector<NamedExhibit>& transferExhibits() {
-    static const std::vector<NamedExhibit> all = {
-        {"transfer-cloth", cloth}, {"transfer-hand", hand},       {"transfer-figure", fixer}, {"transfer-bull", bull},
-        {"transfer-chess", chess}, {"transfer-contact", contact}, {"transfer-tables", tables}};
+    static const std::vector<NamedExhibit> all = {{"transfer-cloth", cloth},
+                                                  {"transfer-hand", hand},
+                                                  {"transfer-figure", fixer},
+                                                  {"transfer-bull", bull},
+                                                  {"transfer-chess", chess},
+                                                  {"transfer-contact", contact},
+                                                  {"transfer-gloss", transferGlossExhibit},
+                                                  {"transfer-objects", transferObjectsExhibit},
+                                                  {"transfer-tables", tables}};
     return all;
 }
 

@@ -16,9 +16,11 @@ struct PatchColumns {
 };
 inline constexpr std::uint8_t kHiddenPatch = 0x80;  ///< beside the level: under the horizon of all vertices
 
+inline constexpr float kAnyOffset = -1e30f;  ///< a triangle's that passes the test of facing from anywhere
+
 /// Triangles that no vertex of a group can rule out, by columns for the vertices' own tests.
 struct ListedBlockers {
-    std::vector<float> columns[13];    ///< corners, normal, offset
+    std::vector<float> columns[14];    ///< corners, normal, offset, offset where sides at least anySide pass
     std::vector<std::uint32_t> index;  ///< of their rows
     std::size_t count = 0;
 };
@@ -27,13 +29,13 @@ struct BlockerKernel {
     /// The coarsest level whose error is below `angle`, seen from the group, for each patch; and whether it is hidden.
     /// \param levels  room for the padded count
     void (*choose)(const PatchColumns& patches, const GroupBounds& group, float angle, std::uint8_t* levels);
-    /// Those of `count` rows that may face, and rise over the plane of, some vertex of the group.
-    /// \param candidates  room for 15 more behind
+    /// Those of `count` rows that may face, and rise over the plane of, some vertex of the group. Rows whose sides are
+    /// at least `anySide` need not face it. \param candidates  room for 15 more behind
     void (*list)(const BlockerRow* rows, std::uint32_t* candidates, std::size_t count, const GroupBounds& group,
-                 bool bothSides, ListedBlockers& out);
-    /// Those with a corner over the receiver's plane that, unless bothSides, face it: their numbers in the list.
-    /// \param out  room for 16 more
-    std::size_t (*cull)(const ListedBlockers& list, const Receiver& receiver, bool bothSides, std::uint32_t* out);
+                 float anySide, ListedBlockers& out);
+    /// Those with a corner over the receiver's plane that face it (or, if `inside`, needn't, as in list): their numbers
+    /// in the list. \param out  room for 16 more
+    std::size_t (*cull)(const ListedBlockers& list, const Receiver& receiver, bool inside, std::uint32_t* out);
 };
 BlockerKernel blockerKernel(VectorSet set = VectorSet::Widest);
 

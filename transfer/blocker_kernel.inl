@@ -45,13 +45,13 @@ void choose(const PatchColumns& patches, const GroupBounds& group, float angle, 
     }
 }
 
-void list(const BlockerRow* rows, std::uint32_t* candidates, std::size_t count, const GroupBounds& group, bool bothSides,
+void list(const BlockerRow* rows, std::uint32_t* candidates, std::size_t count, const GroupBounds& group, float anySide,
           ListedBlockers& out) {
     out.count = 0;
     for (std::size_t k = count; k % kWide; ++k) candidates[k] = candidates[count - 1];
     for (std::size_t i = 0; i < count; i += kWide) {
-        Floats v[14];
-        gather<14>(rows, candidates + i, v);
+        Floats v[15];
+        gather<15>(rows, candidates + i, v);
         Floats highest{}, farthest{};
         for (int c = 0; c < 3; ++c) {
             const Columns d = Columns{v[3 * c], v[3 * c + 1], v[3 * c + 2]} - group.centre;
@@ -61,20 +61,25 @@ void list(const BlockerRow* rows, std::uint32_t* candidates, std::size_t count, 
         }
         const Floats radius = splat(group.radius);
         Mask keep = highest + splat(glm::length(group.normal)) * radius + splat(group.spread) * (farthest + radius) >= Floats{};
-        if (!bothSides) keep &= dot(group.centre, {v[9], v[10], v[11]}) - v[12] + v[13] * radius >= Floats{};
+        const Mask always = v[14] >= splat(kAnySide);
+        v[12] = choose(always, splat(kAnyOffset), v[12]);
+        const Floats around = v[13] * radius;
+        v[13] = choose(v[14] >= splat(anySide), splat(kAnyOffset), v[12]);
+        keep &= dot(group.centre, {v[9], v[10], v[11]}) - v[13] + around >= Floats{};
         const unsigned used = count - i >= kWide ? 0xffffu : (1u << (count - i)) - 1, bits = lanes(keep) & used;
         std::uint32_t which[kWide];
         std::memcpy(which, candidates + i, sizeof(which));
-        for (int c = 0; c < 13; ++c) append(out.columns[c].data(), out.count, v[c], bits);
+        for (int c = 0; c < 14; ++c) append(out.columns[c].data(), out.count, v[c], bits);
         out.count = append(out.index.data(), out.count, which, bits);
     }
 }
 
-std::size_t cull(const ListedBlockers& list, const Receiver& receiver, bool bothSides, std::uint32_t* out) {
+std::size_t cull(const ListedBlockers& list, const Receiver& receiver, bool inside, std::uint32_t* out) {
     const glm::vec3 p = receiver.point, n = receiver.normal;
     const Floats height = splat(n.x * p.x + n.y * p.y + n.z * p.z);
-    const float* column[13];
-    for (int c = 0; c < 13; ++c) column[c] = list.columns[c].data();
+    const float* column[12];
+    const float* offset = list.columns[inside ? 13 : 12].data();
+    for (int c = 0; c < 12; ++c) column[c] = list.columns[c].data();
     const auto at = [&](int c, std::size_t i) {
         return Columns{load(column[c] + i), load(column[c + 1] + i), load(column[c + 2] + i)};
     };
@@ -84,8 +89,7 @@ std::size_t cull(const ListedBlockers& list, const Receiver& receiver, bool both
     const std::size_t count = list.count;
     for (std::size_t i = 0; i < count; i += kWide) {
         const Floats z = larger(larger(dot(n, at(0, i)), dot(n, at(3, i))), dot(n, at(6, i)));
-        Mask keep = z > height;
-        if (!bothSides) keep &= dot(p, at(9, i)) > load(column[12] + i);
+        const Mask keep = (z > height) & (dot(p, at(9, i)) > load(offset + i));
         const unsigned used = count - i >= kWide ? 0xffffu : (1u << (count - i)) - 1;
         found = append(out, found, numbers + static_cast<std::int32_t>(i), lanes(keep) & used);
     }

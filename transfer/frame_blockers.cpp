@@ -11,12 +11,6 @@ namespace {
 
 constexpr std::size_t kAtATime = 256, kPatchesAtATime = 8;
 
-/// A triangle that the tests for facing let pass whichever way it faces.
-void passAnySide(BlockerRow& row) {
-    row.offset = -1e30f;
-    row.normalLength = 1e15f;
-}
-
 /// Distance of a point from a triangle's plane.
 float offPlane(const BlockerRow& row, const glm::vec3& p) {
     const float d = row.normal[0] * p.x + row.normal[1] * p.y + row.normal[2] * p.z - row.offset;
@@ -50,6 +44,7 @@ MovingLevels::MovingLevels(BlockerLevels levels, std::size_t vertices) : levels_
         for (const glm::uvec3& t : triangles) numbered_[l].emplace_back(numberOf[t.x], numberOf[t.y], numberOf[t.z]);
         cut(vertexParts_, l, used_[l].size());
     }
+    sides_.assign(rowCount_, kFrontSide);
     for (const BlockerLevels::Patch& patch : levels_.patches) {
         std::vector<std::uint32_t>& all = patchCorners_.emplace_back();
         float push = 0;
@@ -109,8 +104,14 @@ void MovingLevels::placePatch(std::span<const glm::vec3> positions, std::size_t 
     }
 }
 
-void MovingLevels::place(std::span<const glm::vec3> positions, bool passBothSides, unsigned threads,
-                         FrameBlockers& out) const {
+void MovingLevels::setSides(float mesh, float coarser, std::span<const std::uint8_t> sheets) {
+    sides_.clear();
+    for (std::size_t l = 0; l < levelCount(); ++l)
+        for (const glm::uvec3& t : levels_.levels[l].triangles)
+            sides_.push_back(sheets[t.x] ? kAnySide : l == 0 ? mesh : coarser);
+}
+
+void MovingLevels::place(std::span<const glm::vec3> positions, unsigned threads, FrameBlockers& out) const {
     out.rows.resize(rowCount_);
     out.pushed.resize(pushedCount_);
     parallelFor(vertexParts_.size(), threads, [&](std::size_t i) {
@@ -128,7 +129,7 @@ void MovingLevels::place(std::span<const glm::vec3> positions, bool passBothSide
         for (std::size_t k = first; k < end; ++k) {
             BlockerRow& row = out.rows[firstRow_[l] + k];
             row = blockerRow(at[triangles[k].x], at[triangles[k].y], at[triangles[k].z]);
-            if (passBothSides && l == 0) passAnySide(row);
+            row.sides = sides_[firstRow_[l] + k];
         }
     });
     out.patches.resize(patches().size(), levelCount());

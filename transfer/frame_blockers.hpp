@@ -19,9 +19,12 @@ public:
     MovingLevels(BlockerLevels levels, std::size_t vertices);
 
     /// Where they are. `out` is used again from frame to frame.
-    /// \param positions  of the mesh, with an extent of 1 \param passBothSides  of the mesh itself: its rows pass any
-    /// test of facing
-    void place(std::span<const glm::vec3> positions, bool passBothSides, unsigned threads, FrameBlockers& out) const;
+    /// \param positions  of the mesh, with an extent of 1
+    void place(std::span<const glm::vec3> positions, unsigned threads, FrameBlockers& out) const;
+
+    /// Which sides block: of the mesh's own triangles, and of coarser ones. \param sheets  [vertex] whether its
+    /// connected part blocks by any side
+    void setSides(float mesh, float coarser, std::span<const std::uint8_t> sheets);
 
     const std::vector<BlockerLevels::Patch>& patches() const { return levels_.patches; }
     std::size_t levelCount() const { return levels_.levels.size(); }
@@ -45,6 +48,7 @@ private:
     std::vector<std::uint32_t> firstRow_, firstPushed_;     ///< [level]
     std::vector<Part> vertexParts_, rowParts_;              ///< what a thread does at a time
     std::vector<std::vector<std::uint32_t>> patchCorners_;  ///< [patch] vertices of all its triangles
+    std::vector<float> sides_;                              ///< [row]
     std::vector<float> patchPush_;                          ///< [patch] the longest push of one of them
     std::vector<std::vector<std::uint32_t>> joined_;
     std::size_t rowCount_ = 0, pushedCount_ = 0;

@@ -66,6 +66,33 @@ void MaskShading::glossy(const Receiver& receiver, std::span<const std::uint32_t
     rotation_.turn(&receiver, 1, local.data(), world.data());
 }
 
+void MaskShading::hidden(std::span<const std::uint32_t> mask, const glm::vec3& wo, const BrdfOfDirections& brdf,
+                         std::span<float> local) const {
+    struct Hidden {
+        std::vector<glm::vec3> directions;
+        std::vector<std::size_t> cells;
+        std::vector<float> shares, f;
+    };
+    static thread_local Hidden found;
+    found.directions.clear(), found.cells.clear(), found.shares.clear();
+    for (std::size_t cell = 0; cell < cells(); ++cell) {
+        const float share = 1 - open(mask, cell);
+        if (share == 0) continue;
+        found.directions.push_back(directions_[cell]);
+        found.cells.push_back(cell);
+        found.shares.push_back(share);
+    }
+    found.f.resize(found.cells.size());
+    brdf(wo, found.directions, found.f);
+    std::fill(local.begin(), local.end(), 0.0f);
+    const float weight = static_cast<float>(kPi / static_cast<double>(cells()));
+    for (std::size_t i = 0; i < found.cells.size(); ++i) {
+        const float value = weight * found.f[i] * found.shares[i];
+        for (std::size_t c = 0; c < local.size(); ++c)
+            local[c] += value * harmonics_[found.cells[i] * local.size() + c];
+    }
+}
+
 Rgb MaskShading::direct(const Receiver& receiver, std::span<const std::uint32_t> mask,
                         const std::function<Rgb(const Vec3&)>& light) const {
     Rgb sum(0);

@@ -33,6 +33,11 @@ public:
     void glossy(const Receiver& receiver, std::span<const std::uint32_t> mask, const glm::vec3& toEye,
                 const BrdfOfDirections& brdf, std::span<float> world) const;
 
+    /// ∫ y_i (1 − V) f max(0, n·s) ds, what a mask takes from an open hemisphere's transfer, in the mask's own frame.
+    /// f is asked for cells alone that hide something. \param wo  unit, local \param local  [(order + 1)²]
+    void hidden(std::span<const std::uint32_t> mask, const glm::vec3& wo, const BrdfOfDirections& brdf,
+                std::span<float> local) const;
+
     /// ∫ L V max(0, n·s)/π ds: what a white diffuse point sends out, without harmonics.
     /// \param light  radiance by the world's direction
     Rgb direct(const Receiver& receiver, std::span<const std::uint32_t> mask,

@@ -72,7 +72,7 @@ void addRows(std::span<const glm::uvec3> triangles, std::span<const glm::vec3> p
     for (const glm::uvec3& t : triangles) rows.push_back(blockerRow(positions[t.x], positions[t.y], positions[t.z]));
 }
 
-ListedBlockers columnsOf(std::span<const BlockerRow> rows) {
+ListedBlockers columnsOf(std::span<const BlockerRow> rows, bool bothSides) {
     ListedBlockers out;
     out.count = rows.size();
     const std::size_t padded = (rows.size() + kLanes - 1) / kLanes * kLanes;
@@ -82,7 +82,7 @@ ListedBlockers columnsOf(std::span<const BlockerRow> rows) {
         out.index[t] = static_cast<std::uint32_t>(t);
         for (std::size_t k = 0; k < 9; ++k) out.columns[k][t] = rows[t].corners[k];
         for (std::size_t k = 0; k < 3; ++k) out.columns[9 + k][t] = rows[t].normal[k];
-        out.columns[12][t] = rows[t].offset;
+        out.columns[12][t] = bothSides ? kAnyOffset : rows[t].offset;
     }
     return out;
 }
@@ -182,7 +182,7 @@ TaskResult PaperMethod::State::computeTask(std::span<const std::uint32_t> of, co
         for (std::size_t i = 0; i < used; ++i) {
             const std::uint32_t v = of[first + i];
             receivers[i] = receiverAt(positions[v], frame.normals[v]);
-            const std::size_t all = culling.cull(blockers.coarse, receivers[i], bothSides, indices.data());
+            const std::size_t all = culling.cull(blockers.coarse, receivers[i], false, indices.data());
             std::uint32_t* const end = indices.data() + all;
             for (const std::uint32_t t : replaced[v]) isReplaced[t] = v + 1;
             std::uint32_t* last =
@@ -233,7 +233,7 @@ TransferFrame PaperMethod::compute(std::span<const glm::vec3> positions) const {
     frame.normals = vertexNormals(s.mesh.triangles, s.corners, positions, s.options.threads);
     BlockersNow blockers;
     addRows(s.coarse, positions, blockers.rows);
-    blockers.coarse = columnsOf(blockers.rows);
+    blockers.coarse = columnsOf(blockers.rows, s.options.sides == BlockingSides::Both);
     if (s.mostNear > 0) addRows(s.mesh.triangles, positions, blockers.rows);
     std::vector<std::uint32_t> chosen;
     for (const std::uint32_t v : s.vertices)

@@ -44,20 +44,22 @@ void sortUnique(std::vector<std::uint32_t>& numbers) {
     numbers.erase(std::unique(numbers.begin(), numbers.end()), numbers.end());
 }
 
-/// How far connected parts are from enclosing something: Σ |Σ area vectors| / Σ areas, 0 for closed shells, 1 for flat
-/// sheets.
-double openness(std::span<const glm::uvec3> triangles, std::span<const glm::vec3> positions) {
+/// How far each vertex's connected part is from enclosing something: |Σ area vectors| / Σ areas, 0 for closed shells, 1
+/// for flat sheets.
+std::vector<float> openness(std::span<const glm::uvec3> triangles, std::span<const glm::vec3> positions) {
     const std::vector<std::uint32_t> part = connectedParts(triangles, positions.size());
     std::vector<glm::dvec3> sums(positions.size(), glm::dvec3(0));
-    double area = 0, open = 0;
+    std::vector<double> areas(positions.size(), 0);
     for (const glm::uvec3& t : triangles) {
         const glm::dvec3 a = positions[t.x],
                          n = glm::cross(glm::dvec3(positions[t.y]) - a, glm::dvec3(positions[t.z]) - a);
         sums[part[t.x]] += n;
-        area += glm::length(n);
+        areas[part[t.x]] += glm::length(n);
     }
-    for (const glm::dvec3& n : sums) open += glm::length(n);
-    return area > 0 ? open / area : 1;
+    std::vector<float> out;
+    for (const std::uint32_t p : part)
+        out.push_back(areas[p] > 0 ? static_cast<float>(glm::length(sums[p]) / areas[p]) : 1.0f);
+    return out;
 }
 
 /// About the first vertex and with an extent of 1: far from the origin floats are coarse, and they end.
@@ -85,7 +87,12 @@ struct SelfTransfer::State {
     MovingLevels levels;
     std::vector<std::vector<std::uint32_t>> groups;
     std::vector<std::vector<std::uint32_t>> near;        ///< [group] triangles of the mesh within the rings
-    std::vector<std::vector<std::uint8_t>> nearPatches;  ///< [group][patch] that have some of them
+    std::vector<std::vector<std::uint8_t>> nearPatches;  ///< [group][patch] of sheets, whose levels would lie over it
+    std::vector<std::uint8_t> sheets;                    ///< [vertex]
+    std::vector<std::uint8_t> inside;                    ///< [vertex] whether it sees backs of shells
+    std::vector<std::uint8_t> groupInside;               ///< [group] whether one of its vertices does
+    bool hasSheets = false;                              ///< parts that block by any side
+    bool hasShells = false;                              ///< parts whose backs block where they are seen
     std::vector<float> angles;                           ///< [group] lodAngle, less where little light gets to
     MaskKernel kernel;
     BlockerKernel blockerKernels;
@@ -100,7 +107,9 @@ struct SelfTransfer::State {
     void findNear();
     std::unique_ptr<FrameBlockers> takeSpare();
     void keepSpare(std::unique_ptr<FrameBlockers> blockers);
-    void fitAngles(std::span<const float> atRest);
+    void chooseSides(std::span<const glm::vec3> rest);
+    void findInside(std::span<const float> withBacks, std::span<const float> withoutBacks);
+    void makeGroups(std::span<const glm::vec3> rest, std::span<const std::uint8_t> dark);
     std::size_t listBlockers(const FrameBlockers& blockers, const GroupBounds& bounds, std::size_t group,
                              const BlockerSets& sets, Scratch& scratch) const;
     std::size_t setWords() const { return (levels.rowCount() + 63) / 64; }
@@ -122,28 +131,70 @@ SelfTransfer::State::State(WeldedMesh m, std::span<const glm::vec3> rest, const 
       integrals(maskIntegrals(o.mask, o.order)),
       rotation(o.order),
       open(openTransfer(o.order)) {
-    if (options.sides == BlockingSides::Auto)
-        options.sides = mesh.closed                            ? BlockingSides::Front
-                        : openness(mesh.triangles, rest) < 0.2 ? BlockingSides::Fine
-                                                               : BlockingSides::Both;
     for (std::size_t v = 0; v < mesh.vertexCount(); ++v)
         mostCorners = std::max<std::size_t>(mostCorners, corners.first[v + 1] - corners.first[v]);
-    const std::vector<glm::vec3> normals = vertexNormals(mesh.triangles, corners, rest);
-    groups = groupReceivers(rest, normals, kGroup);
-    angles.assign(groups.size(), static_cast<float>(options.lodAngle));
-    findNear();
+    chooseSides(rest);
+    makeGroups(rest, {});
 }
 
-/// Errors count relative to the light that a vertex gets: a group with one that gets little at rest needs finer
-/// blockers.
-void SelfTransfer::State::fitAngles(std::span<const float> atRest) {
-    constexpr double kDark = 0.3;       // of an open vertex's light
-    constexpr float kDarkAngle = 0.4f;  // of the other groups' angle
+/// Auto looks at each connected part: of sheets any side blocks; of shells with openings, or through which others pass,
+/// the backs do where findInside sees them.
+void SelfTransfer::State::chooseSides(std::span<const glm::vec3> rest) {
+    constexpr float kSheet = 0.2f;
+    const bool byParts = options.sides == BlockingSides::Auto && !mesh.closed;
+    sheets.assign(mesh.vertexCount(), options.sides == BlockingSides::Both);
+    const std::vector<float> partOpen = openness(mesh.triangles, rest);
+    for (std::size_t v = 0; byParts && v < partOpen.size(); ++v) sheets[v] = partOpen[v] > kSheet;
+    const auto inSheets = static_cast<std::size_t>(std::count(sheets.begin(), sheets.end(), 1));
+    hasSheets = inSheets > 0;
+    hasShells = byParts && inSheets < sheets.size();
+    const bool inner = hasShells || options.sides == BlockingSides::Fine;
+    levels.setSides(inner ? kInnerSide : kFrontSide, kFrontSide, sheets);
+    inside.assign(mesh.vertexCount(), inner);
+    if (options.sides == BlockingSides::Auto)
+        options.sides = mesh.closed                    ? BlockingSides::Front
+                        : 2 * inSheets > sheets.size() ? BlockingSides::Both
+                                                       : BlockingSides::Fine;
+}
+
+/// Where backs of shells change something at rest, and three rings about, they are drawn; elsewhere all are behind
+/// fronts.
+void SelfTransfer::State::findInside(std::span<const float> withBacks, std::span<const float> withoutBacks) {
+    constexpr double kSeen = 0.01;  // of an open vertex's light
     const std::size_t size = open.size() * open.size();
-    for (std::size_t g = 0; g < groups.size(); ++g)
-        if (std::any_of(groups[g].begin(), groups[g].end(),
-                        [&](std::uint32_t v) { return atRest[size * v] < kDark * open[0]; }))
-            angles[g] *= kDarkAngle;
+    for (std::uint32_t v = 0; v < mesh.vertexCount(); ++v) {
+        double difference = 0;
+        for (std::size_t i = size * v; i < size * (v + 1); ++i) difference += std::abs(withBacks[i] - withoutBacks[i]);
+        inside[v] = difference > kSeen * open[0];
+    }
+    for (int ring = 0; ring < 3; ++ring) {
+        const std::vector<std::uint8_t> before = inside;
+        for (const glm::uvec3& t : mesh.triangles)
+            if (before[t.x] || before[t.y] || before[t.z])
+                for (int c = 0; c < 3; ++c) inside[t[c]] = 1;
+    }
+}
+
+/// Vertices that need more blockers than others, dark ones and those that see backs, are in groups of their own.
+/// \param dark  [vertex] that gets little light at rest; empty: none. Errors count relative to the light that a vertex
+/// gets, so that these need finer blockers
+void SelfTransfer::State::makeGroups(std::span<const glm::vec3> rest, std::span<const std::uint8_t> dark) {
+    constexpr float kDarkAngle = 0.4f;  // of the other groups' angle
+    const std::vector<glm::vec3> normals = vertexNormals(mesh.triangles, corners, rest);
+    groups.clear();
+    angles.clear();
+    groupInside.clear();
+    for (const int kind : {0, 1, 2, 3}) {  // bits: dark, inside
+        std::vector<glm::vec3> ofKind = normals;
+        for (std::size_t v = 0; v < ofKind.size(); ++v)
+            if ((inside[v] ? 2 : 0) + (!dark.empty() && dark[v] ? 1 : 0) != kind) ofKind[v] = glm::vec3(0);
+        for (std::vector<std::uint32_t>& group : groupReceivers(rest, ofKind, kGroup)) {
+            groups.push_back(std::move(group));
+            angles.push_back(static_cast<float>(options.lodAngle) * (kind & 1 ? kDarkAngle : 1));
+            groupInside.push_back(kind & 2 ? 1 : 0);
+        }
+    }
+    findNear();
 }
 
 /// The triangles of all vertices within the rings, and the patches that a triangle of some level joins with theirs: no
@@ -157,7 +208,8 @@ void SelfTransfer::State::findNear() {
         for (int ring = 0; ring <= options.rings; ++ring) {
             near[g].clear();
             for (const std::uint32_t v : reached) {
-                for (const std::uint32_t patch : levels.joined(levels.coarsestOf(v))) nearPatches[g][patch] = 1;
+                if (sheets[v])
+                    for (const std::uint32_t patch : levels.joined(levels.coarsestOf(v))) nearPatches[g][patch] = 1;
                 for (std::uint32_t i = corners.first[v]; i < corners.first[v + 1]; ++i)
                     near[g].push_back(corners.order[i] / 3);
             }
@@ -205,18 +257,18 @@ std::size_t SelfTransfer::State::listBlockers(const FrameBlockers& blockers, con
         count += std::exchange(scratch.seen[row], scratch.lists) != scratch.lists;
     };
     for (const std::uint32_t t : near[group]) add(t);
-    const bool bothSides = options.sides == BlockingSides::Both;
     for (std::size_t p = 0; p < levels.patches().size(); ++p) {
         std::size_t level = scratch.levels[p] & ~kHiddenPatch;
         // A coarse triangle next to the vertex is harmless while its back lets light through.
-        if (bothSides && nearPatches[group][p]) level = 0;
+        if (nearPatches[group][p]) level = 0;
         const std::vector<std::uint32_t>& triangles = levels.patches()[p].triangles[level];
         if (scratch.levels[p] & kHiddenPatch)
             hidden += triangles.size();
         else
             for (const std::uint32_t t : triangles) add(levels.firstRow(level) + t);
     }
-    blockerKernels.list(blockers.rows.data(), scratch.candidates.data(), count, bounds, bothSides, scratch.listed);
+    blockerKernels.list(blockers.rows.data(), scratch.candidates.data(), count, bounds,
+                        groupInside[group] ? kInnerSide : kAnySide, scratch.listed);
     scratch.rows.resize(scratch.listed.count);
     for (std::size_t i = 0; i < scratch.listed.count; ++i) scratch.rows[i] = blockers.rows[scratch.listed.index[i]];
     return count + hidden;
@@ -261,11 +313,11 @@ GroupResult SelfTransfer::State::computeGroup(std::size_t group, std::span<const
     scratch.indices.resize(room * vertices.size());
     scratch.counts.resize(vertices.size());
     scratch.receivers.resize(vertices.size());
-    const bool bothSides = options.sides == BlockingSides::Both, drawBoth = options.sides != BlockingSides::Front;
+    const bool drawBoth = hasSheets || groupInside[group];
     for (std::size_t i = 0; i < vertices.size(); ++i) {
         scratch.receivers[i] = receiverAt(positions[vertices[i]], frame.normals[vertices[i]]);
         scratch.counts[i] =
-            blockerKernels.cull(scratch.listed, scratch.receivers[i], bothSides, &scratch.indices[room * i]);
+            blockerKernels.cull(scratch.listed, scratch.receivers[i], inside[vertices[i]], &scratch.indices[room * i]);
         for (std::size_t k = 0; !sets.drawn.empty() && k < scratch.counts[i]; ++k) {
             const std::uint32_t row = scratch.listed.index[scratch.indices[room * i + k]];
             sets.drawn[group * setWords() + row / 64] |= std::uint64_t{1} << row % 64;
@@ -319,7 +371,18 @@ SelfTransfer::SelfTransfer(WeldedMesh mesh, std::span<const glm::vec3> rest, con
     require(std::isfinite(options.lodAngle) && options.lodAngle >= 0, "transfer: expected an angle of 0 or more");
     require(rest.size() == mesh.vertexCount(), "transfer: expected a position a vertex");
     state_ = std::make_unique<State>(std::move(mesh), rest, options);
-    if (options.coarse > 0 && !rest.empty()) state_->fitAngles(compute(rest).coefficients);
+    if (state_->levels.levelCount() == 1 || rest.empty()) return;
+    constexpr double kDark = 0.5;  // of an open vertex's light
+    State& s = *state_;
+    const std::vector<float> atRest = compute(rest).coefficients;
+    if (s.hasShells) {
+        std::fill(s.inside.begin(), s.inside.end(), std::uint8_t{0});
+        s.findInside(atRest, compute(rest).coefficients);
+    }
+    const std::size_t size = s.open.size() * s.open.size();
+    std::vector<std::uint8_t> dark;
+    for (std::size_t v = 0; v < rest.size(); ++v) dark.push_back(atRest[size * v] < kDark * s.open[0]);
+    s.makeGroups(rest, dark);
 }
 SelfTransfer::~SelfTransfer() = default;
 SelfTransfer::SelfTransfer(SelfTransfer&&) noexcept = default;
@@ -368,7 +431,7 @@ TransferFrame SelfTransfer::compute(std::span<const glm::vec3> given, std::span<
         positions.size() * static_cast<std::size_t>((s.options.order + 1) * (s.options.order + 1)), 0);
     frame.normals = vertexNormals(s.mesh.triangles, s.corners, positions, s.options.threads);
     std::unique_ptr<FrameBlockers> blockers = s.takeSpare();
-    s.levels.place(positions, s.options.sides == BlockingSides::Fine, s.options.threads, *blockers);
+    s.levels.place(positions, s.options.threads, *blockers);
     const double prepared = threadSeconds();
     std::vector<std::vector<std::uint32_t>> chosen(s.groups.size());
     std::vector<GroupResult> results(s.groups.size());

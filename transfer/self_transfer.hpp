@@ -11,8 +11,8 @@ namespace nacre {
 
 /// Which sides of a triangle block. On closed meshes the sides that face the vertex are all that can be seen first.
 /// Fine: both of the mesh's own triangles, the front of coarser levels', whose backs would hide vertices that they lie
-/// over; for meshes of shells with openings. Auto: Front when closed, Fine when the connected parts nearly enclose
-/// something, else (cloth) Both.
+/// over. Auto: Front when closed; else by connected part: of sheets (cloth) both sides; of shells, which nearly enclose
+/// something, as Fine for the vertices that see some backs at rest, as Front for the others.
 enum class BlockingSides { Auto, Front, Fine, Both };
 
 struct SelfTransferOptions {
@@ -70,7 +70,7 @@ public:
                           const MaskUse& use = {}, const BlockerSets& sets = {}) const;
 
     const WeldedMesh& mesh() const;
-    const SelfTransferOptions& options() const;  ///< sides resolved
+    const SelfTransferOptions& options() const;  ///< Auto sides as most of the mesh has them
     std::size_t coarseTriangles() const;
     std::uint32_t groupCount() const, rowCount() const;
     std::uint64_t key() const;  ///< differs where sets of blockers mean something else: by mesh, rest and levels

@@ -33,6 +33,11 @@ std::string problemOf(const TransferRecording& r) {
         return fmt::format("expected an order of 0 to {}, found {}", kMaxTransferOrder, r.order);
     if (!std::isfinite(r.framesPerSecond) || r.framesPerSecond <= 0)
         return fmt::format("expected frames per second > 0, found {}", r.framesPerSecond);
+    if (r.gloss && !(std::isfinite(r.gloss->exponent) && r.gloss->exponent >= 0 && r.gloss->specular >= 0 &&
+                     r.gloss->specular <= 1 && isFinite(r.gloss->eye)))
+        return fmt::format(
+            "expected an exponent >= 0, a specular share of 0 to 1 and a finite eye, found {}, {} and [{}, {}, {}]",
+            r.gloss->exponent, r.gloss->specular, r.gloss->eye.x, r.gloss->eye.y, r.gloss->eye.z);
     if (r.blocks.empty()) return "expected at least one block, found none";
     for (std::size_t t = 0; t < r.triangles.size(); ++t)
         for (int c = 0; c < 3; ++c)
@@ -87,6 +92,11 @@ json headerOf(const TransferRecording& r) {
         header["frames"].push_back(frame.number);
         header["block_of_frame"].push_back(frame.block);
     }
+    if (r.gloss) {
+        const Vec3& eye = r.gloss->eye;
+        header["glossy"] = {
+            {"exponent", r.gloss->exponent}, {"specular", r.gloss->specular}, {"eye", {eye.x, eye.y, eye.z}}};
+    }
     return header;
 }
 
@@ -133,6 +143,9 @@ Head parseHead(json header, const std::string& name) {
                                  blocks = field.at("block_of_frame").items(numbers.size(), numbers.size());
     for (std::size_t f = 0; f < numbers.size(); ++f)
         r.frames.push_back({numbers[f].integer(0, kMaxCount), blocks[f].integer(0, kMaxCount)});
+    if (const auto gloss = field.find("glossy"))
+        r.gloss = RecordedGloss{gloss->at("exponent").number(0), gloss->at("specular").number(0, 1),
+                                gloss->at("eye").vector()};
     r.meta = std::move(header);
     return head;
 }

@@ -13,19 +13,29 @@
 //   4 V C    C = (order + 1)² float a vertex: its transfer vector, index l² + l + m (transfer/self_transfer.hpp)
 // The header's keys that the numbers need: source_vertices S, triangles T, vertices V, blocks B, order, and
 // frames_per_second; "frames", the animation's numbers of the frames that are there, ascending; "block_of_frame", as
-// long: frames in which nothing moves share a block. What else is there says how it was made (command line, options,
+// long: frames in which nothing moves share a block. "glossy", when the coefficients are one viewer's: exponent,
+// specular, eye as RecordedGloss. What else is there says how it was made (command line, options,
 // measured error).
 #pragma once
 
 #include <filesystem>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <span>
 
+#include "core/math.hpp"
 #include "transfer/surface.hpp"
 
 namespace nacre {
 
 inline constexpr int kTransferFileVersion = 1;
+
+/// V = (1 − specular) V of f = 1/π + specular V of Phong's lobe (transfer/mask_shading.hpp), seen from `eye`.
+struct RecordedGloss {
+    double exponent = 0, specular = 1;
+    Vec3 eye{0};
+    bool operator==(const RecordedGloss&) const = default;
+};
 
 struct TransferRecording {
     struct Block {
@@ -41,6 +51,7 @@ struct TransferRecording {
     std::vector<glm::uvec3> triangles;
     std::vector<Block> blocks;
     std::vector<Frame> frames;
+    std::optional<RecordedGloss> gloss{};            ///< none: matt, the same from everywhere
     nlohmann::json meta = nlohmann::json::object();  ///< the header; the writer adds what the numbers need
 
     std::size_t vertexCount() const { return blocks.empty() ? 0 : blocks.front().positions.size(); }

@@ -1,10 +1,7 @@
 #include "demos/viewer/app.hpp"
 
-#include <backends/imgui_impl_glfw.h>
-#include <backends/imgui_impl_opengl3.h>
 #include <epoxy/gl.h>
 #include <fmt/format.h>
-#include <imgui.h>
 
 #include <algorithm>
 #include <chrono>
@@ -13,6 +10,7 @@
 
 #include "core/error.hpp"
 #include "demos/viewer/frame_times.hpp"
+#include "demos/viewer/gui.hpp"
 #include "demos/viewer/orbit.hpp"
 #include "demos/viewer/panel.hpp"
 #include "demos/viewer/present.hpp"
@@ -29,26 +27,6 @@ constexpr double kPoll = 0.5;  ///< seconds between two looks at the files
 constexpr int kSettle = 3;     ///< frames after an event until the panel has taken it in
 
 double secondsSince(Clock::time_point begin) { return std::chrono::duration<double>(Clock::now() - begin).count(); }
-
-/// Dear ImGui's global context, as long as a window.
-class Gui {
-public:
-    explicit Gui(GLFWwindow* window) {
-        IMGUI_CHECKVERSION();
-        ImGui::CreateContext();
-        ImGui::GetIO().IniFilename = nullptr;  // no imgui.ini in the current folder
-        ImGui::StyleColorsDark();
-        ImGui_ImplGlfw_InitForOpenGL(window, true);
-        ImGui_ImplOpenGL3_Init("#version 330 core");
-    }
-    ~Gui() {
-        ImGui_ImplOpenGL3_Shutdown();
-        ImGui_ImplGlfw_Shutdown();
-        ImGui::DestroyContext();
-    }
-    Gui(const Gui&) = delete;
-    Gui& operator=(const Gui&) = delete;
-};
 
 class App {
 public:
@@ -143,14 +121,11 @@ private:
         const auto left = static_cast<int>(pictureOrigin(state_).x);
         const bool error = comparison_.image() && comparison_.shown == Shown::Difference;
         if (width > left) presenter_.show(session_.loader(), {left, 0, width - left, height}, error ? 1 : state_.white);
-        ImGui_ImplOpenGL3_NewFrame();
-        ImGui_ImplGlfw_NewFrame();
-        ImGui::NewFrame();
+        gui_.begin();
         const double white = state_.white;
         const Shown shown = comparison_.shown;
         drawPanel(session_, comparison_, state_, pictureOrigin(state_), {width, height});
-        ImGui::Render();
-        ImGui_ImplOpenGL3_RenderDrawData(ImGui::GetDrawData());
+        gui_.draw();
         if (white != state_.white || shown != comparison_.shown) settle();
         glfwSwapBuffers(window_.handle());
         ++shownFrames_;

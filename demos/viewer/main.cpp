@@ -7,6 +7,8 @@
 
 #include "core/error.hpp"
 #include "demos/viewer/app.hpp"
+#include "demos/viewer/transfer_app.hpp"
+#include "transfer/transfer_file.hpp"
 
 namespace {
 
@@ -36,11 +38,19 @@ int run(int argc, char** argv) {
     std::string size;
     double white = 0;
     bool noPanel = false;
-    cli.add_option("file", options.file, "Scene (.json, .gltf, .glb) or mesh (.obj, .ply, .off, ...)")->required();
+    cli.add_option("file", options.file,
+                   "Scene (.json, .gltf, .glb), mesh (.obj, .ply, .off, ...), or what nacre transfer wrote")
+        ->required();
     cli.add_option("--size", size, "Of the picture, beside the panel (default 800x600)")->type_name("WxH");
     cli.add_option("--samples", options.samples, "Samples a pixel (default 1)")->check(CLI::Range(1, 16));
     cli.add_option("--white", white, "Radiance shown as white (default: fitted to the first picture)")
         ->check(CLI::PositiveNumber);
+    cli.add_flag("--transfer", options.liveTransfer,
+                 "Self-shadows of a moving mesh (a file, or cloth, chess), computed for each frame shown");
+    cli.add_option("--env", options.environments,
+                   "Radiance maps that light a transfer file or --transfer (default: white); several blend")
+        ->type_name("FILE")
+        ->allow_extra_args(false);
     cli.add_option("--assets", options.assetFolders, "More folders whose baked assets are offered")->type_name("DIR");
     cli.add_option("--screenshots", options.screenshots, "Folder for screenshots (default: the current one)")
         ->type_name("DIR");
@@ -60,6 +70,16 @@ int run(int argc, char** argv) {
     if (!size.empty()) takeSize(size, options);
     if (white > 0) options.white = white;
     options.panel = !noPanel;
+    const bool transfer = options.liveTransfer || nacre::isTransferFile(options.file);
+    if (!transfer && !options.environments.empty())
+        throw CLI::ValidationError(
+            "--env", "expected a file that nacre transfer wrote, or --transfer, found " + options.file.string());
+    if (options.liveTransfer && nacre::isTransferFile(options.file))
+        throw CLI::ValidationError("--transfer", "expected a mesh, found the transfer file " + options.file.string());
+    if (transfer) {
+        nacre::runTransferViewer(options);
+        return 0;
+    }
     // One core stays with the window.
     const unsigned cores = std::thread::hardware_concurrency();
     nacre::runViewer(options, nacre::sceneTracer(cores > 1 ? cores - 1 : 1));

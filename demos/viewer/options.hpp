@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <optional>
+#include <string>
 #include <vector>
 
 namespace nacre {
@@ -15,6 +16,8 @@ struct ViewerOptions {
     std::optional<double> white;  ///< what becomes 255; none: fitted to the first picture
     std::vector<std::filesystem::path> assetFolders;
     std::filesystem::path screenshots = ".";
+    bool liveTransfer = false;              ///< the file's transfer is computed while it is shown
+    std::vector<std::string> environments;  ///< that light a moving mesh
     int referencePasses = 16;
     int referenceScale = 2;    ///< the reference has 1/n of the picture's edges
     int benchmark = 0;         ///< frames to draw and time; 0: stay open
