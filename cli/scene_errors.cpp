@@ -81,6 +81,7 @@ SceneErrors measureScene(SceneRenderer& renderer, const Image& picture, const Sc
     std::vector<SceneParts> parts(2);  // all, and with what meshes block
     parts[1].occlusion = true;
     for (const Approximation& a : list) parts.push_back(a.without);
+    for (SceneParts& part : parts) part.interreflection = shot.interreflection;
     const SceneTruths truths = openTruths(scene, 0, progress);
     SceneTraceOptions options{.width = shot.width, .height = shot.height, .supersample = rays, .time = shot.time};
     options.specularDepth = renderer.switches.specular.depth;
@@ -98,6 +99,7 @@ SceneErrors measureScene(SceneRenderer& renderer, const Image& picture, const Sc
         const bool brdf = list[i].without.bakedBrdf;
         renderer.switches = list[i].off;
         renderer.switches.specular = before.specular;
+        renderer.switches.shadowMethod = before.shadowMethod;
         if (brdf) renderer.switches.reflectance = SceneReflectance::Direct;
         const Image off = shoot(renderer, shot);
         const ImageDifference without = compareImages(brdf ? picture : off, traced[i + 2], out.white);

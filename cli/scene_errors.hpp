@@ -16,6 +16,7 @@ struct SceneShot {
     int width = 512, height = 512;
     int samples = 2;  ///< n × n shaded a pixel, and averaged
     double time = 0;
+    bool interreflection = false;  ///< the reference has light between meshes
 };
 /// Both draw and trace specular surfaces to the depth of the renderer's switches.
 

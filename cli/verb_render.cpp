@@ -11,6 +11,7 @@
 #include "cli/picture_output.hpp"
 #include "cli/render_transfer.hpp"
 #include "cli/scene_errors.hpp"
+#include "cli/scene_light.hpp"
 #include "cli/terminal.hpp"
 #include "cli/verb.hpp"
 #include "core/error.hpp"
@@ -28,7 +29,7 @@ struct Settings {
     SceneShot shot;
     double white = 0;  ///< 0: of the picture
     int rays = 4;
-    SpecularOptions specular;
+    SceneSwitches switches;
     bool reference = false, shares = false, asJson = false, passes = false;
     TransferPictures transfer;  ///< when the scene is a transfer file
     std::string weights;
@@ -118,12 +119,17 @@ void runRender(const Context& context, const Settings& s) {
     SceneDescription scene = readScene(s.scene, reading);
     if (s.passes) {
         endProgress();
-        return putData(passList(scene, s.shot, s.specular, s.asJson));
+        return putData(passList(scene, s.shot, s.switches.specular, s.asJson));
     }
     const nacre::Context gl(GlApi::Core33);
     ProgramLoader loader;
     SceneRenderer renderer(loader, std::move(scene));
-    renderer.switches.specular = s.specular;
+    renderer.switches = s.switches;
+    json radiosity;
+    if (s.shot.interreflection) {
+        report(progress, "radiosity", 0);
+        radiosity = addRadiosity(renderer, s.shot.time);
+    }
     report(progress, "drawing", 0);
     const Stopwatch watch;
     const Image picture = shoot(renderer, s.shot);
@@ -136,6 +142,9 @@ void runRender(const Context& context, const Settings& s) {
                  {"seconds", seconds},
                  {"programs", renderer.programs().size()},
                  {"renderer", gl.description()}};
+    if (s.shot.interreflection) data["radiosity"] = radiosity;
+    if (s.switches.shadowMethod == ShadowMethod::Volumes)
+        data["shadow_volumes"] = volumesJson(renderer.shadowVolumes());
     double white = s.white > 0 ? s.white : pictureWhite(picture);
     std::string text = fmt::format("{}: {} x {} pixels of {} samples, {} programs\n", s.output, s.shot.width,
                                    s.shot.height, s.shot.samples * s.shot.samples, renderer.programs().size());
@@ -176,17 +185,30 @@ constexpr const char* kDetails =
     "  nacre render cloth.tv -o cloth_###.png --env city.hdr --turn 90";
 
 std::vector<Option> sceneOptions(const std::shared_ptr<Settings>& s) {
-    return {{"--time", "S", "Seconds into a scene's animation (default 0)",
-             only(s->sceneFlag, "--time", finiteInto(s->shot.time))},
-            {"--depth", "N", "Mirrors and panes along a path from the eye (default 4)",
-             only(s->sceneFlag, "--depth",
-                  integerInto([s](long long v) { s->specular.depth = static_cast<int>(v); }, 0, 1000))},
-            {"--passes", "", "Print the passes that draw a scene, and draw nothing",
-             only(s->sceneFlag, "--passes", into(s->passes))},
-            {"--rays", "N", "Of a scene's reference: N x N rays a pixel (default 4)",
-             only(s->sceneFlag, "--rays", integerInto([s](long long v) { s->rays = static_cast<int>(v); }, 1, 16))},
-            {"--shares", "", "Each approximation's share of a scene's error; implies --reference",
-             only(s->sceneFlag, "--shares", into(s->shares))}};
+    return {
+        {"--time", "S", "Seconds into a scene's animation (default 0)",
+         only(s->sceneFlag, "--time", finiteInto(s->shot.time))},
+        {"--depth", "N", "Mirrors and panes along a path from the eye (default 4)",
+         only(s->sceneFlag, "--depth",
+              integerInto([s](long long v) { s->switches.specular.depth = static_cast<int>(v); }, 0, 1000))},
+        {"--passes", "", "Print the passes that draw a scene, and draw nothing",
+         only(s->sceneFlag, "--passes", into(s->passes))},
+        {"--rays", "N", "Of a scene's reference: N x N rays a pixel (default 4)",
+         only(s->sceneFlag, "--rays", integerInto([s](long long v) { s->rays = static_cast<int>(v); }, 1, 16))},
+        {"--shadows", "METHOD", "Of lights that have shadows: maps (default) or volumes, which are hard and exact",
+         only(s->sceneFlag, "--shadows",
+              [s](const std::string& text) { s->switches.shadowMethod = shadowMethodOf(text); })},
+        {"--light-points", "N", "With volumes: points of a light's area, 1 to 63 (default 16)",
+         only(s->sceneFlag, "--light-points",
+              integerInto([s](long long v) { s->switches.lightPoints = static_cast<int>(v); }, 1, 63))},
+        {"--soft", "METHOD",
+         "With volumes, of a light's area: regenerated (default), pivot (volumes of its middle swept from each\n"
+         "point) or levels (the middle's light dimmed by the count)",
+         only(s->sceneFlag, "--soft", [s](const std::string& text) { s->switches.softShadows = softShadowsOf(text); })},
+        {"--radiosity", "", "Add light that bounced between meshes, as colours of their vertices; the reference too",
+         only(s->sceneFlag, "--radiosity", into(s->shot.interreflection))},
+        {"--shares", "", "Each approximation's share of a scene's error; implies --reference",
+         only(s->sceneFlag, "--shares", into(s->shares))}};
 }
 
 std::vector<Option> transferOptions(const std::shared_ptr<Settings>& s) {

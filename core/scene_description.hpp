@@ -115,11 +115,18 @@ struct SceneShadow {
     bool dualParaboloid = false;  ///< of a point light, instead of a cube
 };
 
+/// Spreads a point light or spot evenly over the points position + s u + t v, s and t in [-1, 1]. Each shines as the
+/// light does, with its share of the color. Seen by shadow volumes and the reference; elsewhere it is in the middle.
+struct LightArea {
+    glm::dvec3 u{0}, v{0};  ///< local as the position is
+};
+
 struct SceneLight {
     std::string name;
     int node = -1;  ///< the light moves with it; position and axis are then local to it
     Light light;
     std::optional<SceneShadow> shadow;
+    std::optional<LightArea> area{};  ///< of a light that isn't directional
 };
 
 /// Key frames of one node's translation, rotation or scale.

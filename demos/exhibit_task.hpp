@@ -37,6 +37,7 @@ const std::vector<NamedExhibit>& bumpExhibits();
 const std::vector<NamedExhibit>& sceneExhibits();
 const std::vector<NamedExhibit>& specularExhibits();
 const std::vector<NamedExhibit>& transferExhibits();
+const std::vector<NamedExhibit>& multipassExhibits();
 
 /// shadow_exhibits.cpp
 Exhibit shadowStudyExhibit(const Task& task);

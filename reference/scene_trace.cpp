@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "core/error.hpp"
+#include "core/light_area.hpp"
 #include "core/parallel.hpp"
 #include "core/sampling.hpp"
 #include "reference/camera_rays.hpp"
@@ -119,6 +120,7 @@ public:
           options_(options),
           nodes_(nodeTransforms(scene, options.time)),
           lights_(lightsInWorld(scene, nodes_)),
+          areas_(areasInWorld(scene, nodes_)),
           surfaces_(scene, nodes_),
           rays_(options.points.empty() ? CameraRays(camera, options.width, options.height, options.supersample)
                                        : CameraRays(camera, options.width, options.height, options.points)),
@@ -225,23 +227,60 @@ private:
 
     Rgb lamps(Point& p, const SurfacePoint& frame, const SceneParts& parts, bool relief) const {
         const BrdfFunction& f = parts.bakedBrdf && p.truth->bakedBrdf ? p.truth->bakedBrdf : p.truth->brdf;
-        const Vec3 wo = toLocal(frame, p.s.toEye);
         Rgb sum(0);
         if (!f || !(glm::dot(p.s.normal, p.s.toEye) > 0)) return sum;
         for (std::size_t i = 0; i < lights_.size(); ++i) {
-            const Light& light = lights_[i];
-            const Vec3 offset = light.directional ? light.position : light.position - p.s.position;
-            const Vec3 toLight = glm::normalize(offset), local = toLocal(p.s, toLight), wi = toLocal(frame, toLight);
-            const Rgb arriving = light.color * lightFalloff(light, p.s.position);
-            if (arriving == Rgb(0) || (relief && local.z <= 0)) continue;
-            const bool bounces = relief && parts.indirect && p.material->relief->indirectLight == static_cast<int>(i);
-            if (!bounces && !(wi.z > 0 && wo.z > 0)) continue;
-            if (parts.shadows && shadowed(p, i, offset)) continue;
-            if (bounces) sum += indirect(p, local) * arriving;
-            if (!(wi.z > 0 && wo.z > 0) || (relief && parts.reliefShadow && dark(p, i, local))) continue;
-            sum += f(wi, wo) * arriving * wi.z;
+            if (!areas_[i]) {
+                sum += lamp(p, frame, parts, relief, i, lights_[i], f);
+                continue;
+            }
+            PixelSequence next = sequence(p, 4 + i, options_.lightPoints);
+            for (int k = 0; k < options_.lightPoints; ++k) {
+                p.shadowed[i] = p.dark[i] = -1;  // of the point before
+                sum += lamp(p, frame, parts, relief, i, pointOfArea(lights_[i], *areas_[i], next()), f) /
+                       double(options_.lightPoints);
+            }
         }
         return sum;
+    }
+    Rgb lamp(Point& p, const SurfacePoint& frame, const SceneParts& parts, bool relief, std::size_t i,
+             const Light& light, const BrdfFunction& f) const {
+        const Vec3 wo = toLocal(frame, p.s.toEye);
+        const Vec3 offset = light.directional ? light.position : light.position - p.s.position;
+        const Vec3 toLight = glm::normalize(offset), local = toLocal(p.s, toLight), wi = toLocal(frame, toLight);
+        const Rgb arriving = light.color * lightFalloff(light, p.s.position);
+        if (arriving == Rgb(0) || (relief && local.z <= 0)) return Rgb(0);
+        const bool bounces = relief && parts.indirect && p.material->relief->indirectLight == static_cast<int>(i);
+        const bool direct = wi.z > 0 && wo.z > 0;
+        if ((!bounces && !direct) || (parts.shadows && shadowed(p, i, offset))) return Rgb(0);
+        const Rgb bounced = bounces ? indirect(p, local) * arriving : Rgb(0);
+        if (!direct || (relief && parts.reliefShadow && dark(p, i, local))) return bounced;
+        return bounced + f(wi, wo) * arriving * wi.z;
+    }
+
+    /// Light of lamps by way of other surfaces.
+    Rgb interreflected(const Point& from, const SurfacePoint& frame, const SceneParts& parts) const {
+        PixelSequence first = sequence(from, 3, options_.interreflectionPaths);
+        Random random(options_.seed, from.pixel * static_cast<unsigned>(rays_.samples()) + from.ray, 5);
+        Rgb sum(0);
+        for (int i = 0; i < options_.interreflectionPaths; ++i) {
+            Point at = from;
+            SurfacePoint here = frame;
+            Rgb carried(1);
+            for (int k = 0; k < options_.interreflectionBounces; ++k) {
+                if (!at.truth->brdf || !(glm::dot(here.normal, here.toEye) > 0)) break;
+                const Vec3 d = turnedTo(here.normal, cosineHemisphere(k == 0 ? first() : random.pair()));
+                carried *= at.truth->brdf(toLocal(here, d), toLocal(here, here.toEye)) * kPi;
+                const auto hit = surfaces_.firstHit({here.position, d, surfaces_.skip(), 1e30}, -d);
+                if (!hit) break;
+                const std::uint64_t pixel = from.pixel, ray = from.ray;
+                at = pointAt(*hit);
+                at.pixel = pixel, at.ray = ray * 64 + static_cast<unsigned>(8 * i + k);
+                here = at.s;
+                sum += carried * lamps(at, here, parts, false);
+            }
+        }
+        return sum / double(options_.interreflectionPaths);
     }
     Rgb indirect(Point& p, const Vec3& local) const {
         if (!p.indirect) {
@@ -336,6 +375,7 @@ private:
             sum += p.material->ambient * seen;
         }
         if (parts.lamps) sum += lamps(p, frame, parts, relief);
+        if (parts.interreflection) sum += interreflected(p, frame, parts);
         if (parts.surrounding && p.material->surrounding) sum += surrounding(p, frame, parts, relief);
         return sum;
     }
@@ -346,6 +386,7 @@ private:
     const SceneTraceOptions& options_;
     std::vector<glm::dmat4> nodes_;
     std::vector<Light> lights_;
+    std::vector<std::optional<LightArea>> areas_;
     SceneRays surfaces_;
     CameraRays rays_;
     Mat3 turn_;
@@ -357,8 +398,9 @@ private:
 std::vector<Image> traceScene(const SceneDescription& scene, const Camera& camera, const SceneTruths& truths,
                               const std::vector<SceneParts>& parts, const SceneTraceOptions& options) {
     require(options.width >= 1 && options.height >= 1 && options.supersample >= 1 && options.skyRays >= 1 &&
-                options.indirectPaths >= 1 && options.occlusionRays >= 1 && options.specularDepth >= 0 &&
-                options.spreadRays >= 1,
+                options.indirectPaths >= 1 && options.occlusionRays >= 1 && options.lightPoints >= 1 &&
+                options.interreflectionPaths >= 1 && options.interreflectionBounces >= 1 &&
+                options.specularDepth >= 0 && options.spreadRays >= 1,
             "traceScene: sizes and numbers of rays must be >= 1, the specular depth >= 0");
     require(truths.materials.size() == scene.materials.size(), "traceScene: expected a truth for each material");
     for (const SceneLight& light : scene.lights) checkCone(light.light);

@@ -17,8 +17,9 @@ struct SceneParts {
     bool indirect = true;      ///< bounced light in reliefs
     bool surrounding = true;
     bool sky = true;
-    bool bakedBrdf = false;  ///< the baked BRDF in place of the unfactored one
-    bool occlusion = false;  ///< surfaces block the surrounding's light (reflected and diffuse, not transmitted)
+    bool bakedBrdf = false;        ///< the baked BRDF in place of the unfactored one
+    bool interreflection = false;  ///< light of lamps that other meshes reflected before, by their BRDFs
+    bool occlusion = false;        ///< surfaces block the surrounding's light (reflected and diffuse, not transmitted)
 };
 
 struct SceneTraceOptions {
@@ -31,6 +32,9 @@ struct SceneTraceOptions {
     int skyRays = 4;                ///< of a ray, into a relief's sky: what of the diffuse and ambient light is blocked
     int indirectPaths = 4;          ///< of a ray
     int occlusionRays = 8;          ///< of a ray, into each of the surrounding's lobes; with SceneParts::occlusion
+    int lightPoints = 4;            ///< of a ray, in each light's area
+    int interreflectionPaths = 8;   ///< of a ray; with SceneParts::interreflection
+    int interreflectionBounces = 8;  ///< at most, of a path
     std::uint64_t seed = 1;
     unsigned threads = 0;  ///< same bits for any
     Progress progress{};
@@ -39,6 +43,8 @@ struct SceneTraceOptions {
 /// One picture for each of `parts`, of the same rays. At the first triangle between near and far plane, either side, or
 /// the first point inside a volume's surface (volume_field.hpp), whatever comes first:
 ///   lamps        Σ f · cosα · irradiance, f unfactored; shadow rays to lights with a SceneShadow past nodes that cast
+///                lights with an area: the mean over its points
+///   interreflection  paths with cosine-weighted directions, lamps at each of their ends; reliefs reflect as planes
 ///   relief       the normal of the height field's own patch at uv · tiles; where that faces away from the eye it is
 ///                tilted as the shader does; a lamp is dark below the exact horizon and where the mesh faces away
 ///   ambient      times the share of cosine-weighted directions about the normal that leave the relief

@@ -55,9 +55,18 @@ GpuMesh::GpuMesh(const Mesh& mesh) : indexCount_(static_cast<int>(mesh.triangles
     checkGl("uploading a mesh");
 }
 
-void GpuMesh::draw() const {
+void GpuMesh::draw(const Buffer* radiance) const {
     glBindVertexArray(array_.name());
+    if (radiance != nullptr) {
+        glBindBuffer(GL_ARRAY_BUFFER, radiance->name());
+        glVertexAttribPointer(4, 3, GL_FLOAT, GL_FALSE, sizeof(glm::vec3), nullptr);
+        glEnableVertexAttribArray(4);
+    }
     glDrawElements(GL_TRIANGLES, indexCount_, GL_UNSIGNED_INT, nullptr);
+    if (radiance != nullptr) {
+        glDisableVertexAttribArray(4);
+        glBindBuffer(GL_ARRAY_BUFFER, 0);
+    }
     glBindVertexArray(0);
 }
 

@@ -16,7 +16,8 @@ public:
 
     int indexCount() const { return indexCount_; }
     /// Draws every triangle with the program in use. Leaves vertex array 0 bound.
-    void draw() const;
+    /// \param radiance  three floats a vertex for attribute 4, or none
+    void draw(const Buffer* radiance = nullptr) const;
 
 private:
     VertexArray array_;

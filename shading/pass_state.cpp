@@ -104,16 +104,28 @@ void setDrawState(const RenderTarget& target) {
     glDisable(GL_BLEND);
 }
 
-void drawMesh(const Program& program, const RenderTarget& target, const GpuMesh& mesh, const glm::dmat4& toWorld) {
-    setDrawState(target);
-    drawPlaced(program, mesh, toWorld);
+void setAddLight() {
+    glDepthFunc(GL_EQUAL);
+    glDepthMask(GL_FALSE);
+    glEnable(GL_BLEND);
+    glBlendEquation(GL_FUNC_ADD);
+    glBlendFuncSeparate(GL_ONE, GL_ONE, GL_ZERO, GL_ONE);
 }
 
-void drawPlaced(const Program& program, const GpuMesh& mesh, const glm::dmat4& toWorld, bool mirroredView) {
+void drawMesh(const Program& program, const RenderTarget& target, const GpuMesh& mesh, const glm::dmat4& toWorld,
+              DrawMode mode, const Buffer* radiance) {
+    setDrawState(target);
+    if (mode == DrawMode::AddLight) setAddLight();
+    drawPlaced(program, mesh, toWorld, false, radiance);
+    if (mode == DrawMode::AddLight) setDrawState(target);
+}
+
+void drawPlaced(const Program& program, const GpuMesh& mesh, const glm::dmat4& toWorld, bool mirroredView,
+                const Buffer* radiance) {
     setModel(program, toWorld);
     glFrontFace(mirrors(toWorld) != mirroredView ? GL_CW : GL_CCW);
     program.use();
-    mesh.draw();
+    mesh.draw(radiance);
     glFrontFace(GL_CCW);
     checkGl("drawing a mesh");
 }

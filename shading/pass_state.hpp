@@ -36,12 +36,20 @@ void setModel(const Program& program, const glm::dmat4& toWorld);
 /// Binds the target; depth test and depth write on, face culling and blending off.
 void setDrawState(const RenderTarget& target);
 
-/// Draws in that state, and leaves it so. Front
+/// Fill: setDrawState. AddLight: what has the depth that stands in the target already is added to its colour, alpha and
+/// depth stay (MPR section 7.2); the same vertex shader must have drawn it.
+enum class DrawMode { Fill, AddLight };
+
+/// Draws in that state, and leaves it so. radiance: of GpuMesh::draw. Front
 /// faces are those seen from outside, mirrored or not; afterwards counter-clockwise ones again.
 void drawMesh(const Program& program, const RenderTarget& target, const GpuMesh& mesh,
-              const glm::dmat4& toWorld = glm::dmat4(1));
+              const glm::dmat4& toWorld = glm::dmat4(1), DrawMode mode = DrawMode::Fill,
+              const Buffer* radiance = nullptr);
 
 /// The same in the state that is. \param mirroredView  outlines turn the other way
-void drawPlaced(const Program& program, const GpuMesh& mesh, const glm::dmat4& toWorld, bool mirroredView = false);
+void drawPlaced(const Program& program, const GpuMesh& mesh, const glm::dmat4& toWorld, bool mirroredView = false,
+                const Buffer* radiance = nullptr);
+/// The state of DrawMode::AddLight, from that of setDrawState, which ends it.
+void setAddLight();
 
 }  // namespace nacre

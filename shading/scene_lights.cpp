@@ -70,9 +70,9 @@ SceneLight sceneLight(const std::string& name, const JsonField& field, const Sce
     if (type == 0)
         field.requireKeys({"type", "color", "intensity", "node", "shadow", "direction"});
     else if (type == 1)
-        field.requireKeys({"type", "color", "intensity", "node", "shadow", "position"});
+        field.requireKeys({"type", "color", "intensity", "node", "shadow", "position", "area"});
     else
-        field.requireKeys({"type", "color", "intensity", "node", "shadow", "position", "direction", "target",
+        field.requireKeys({"type", "color", "intensity", "node", "shadow", "position", "area", "direction", "target",
                            "innerDeg", "outerDeg"});
     SceneLight out;
     out.name = name;
@@ -87,6 +87,10 @@ SceneLight sceneLight(const std::string& name, const JsonField& field, const Sce
     } else {
         light.position = Vec3(0);
         ifThere(field, "position", [&](const JsonField& f) { light.position = f.vector(); });
+        ifThere(field, "area", [&](const JsonField& f) {
+            f.requireKeys({"u", "v"});
+            out.area = LightArea{f.at("u").vector(), f.at("v").vector()};
+        });
         if (type == 2) light.cone = cone(field, light.position);
     }
     ifThere(field, "shadow", [&](const JsonField& f) {

@@ -260,6 +260,10 @@ bool takesLamps(const SceneDescription& scene, const SceneMaterial& material, co
     return switches.lamps && !scene.lights.empty() && (material.brdf >= 0 || !material.model.empty());
 }
 
+bool mapsShadows(const SceneSwitches& switches) {
+    return switches.shadows && switches.shadowMethod == ShadowMethod::Maps;
+}
+
 SceneProgram materialProgram(const SceneDescription& scene, const SceneMaterial& m,
                              const std::vector<AssetTraits>& assets, const SceneSwitches& switches,
                              const ShaderDefines& shadows) {
@@ -310,7 +314,7 @@ SceneProgram volumeProgram(const SceneDescription& scene, const SceneVolume& vol
 
 std::vector<ListedProgram> scenePrograms(const SceneDescription& scene, const std::vector<AssetTraits>& assets,
                                          const SceneSwitches& switches) {
-    const ShaderDefines shadows = switches.shadows ? shadowDefinesOf(scene) : ShaderDefines();
+    const ShaderDefines shadows = mapsShadows(switches) ? shadowDefinesOf(scene) : ShaderDefines();
     std::vector<ListedProgram> out;
     for (std::size_t i = 0; i < scene.nodes.size(); ++i) {
         const SceneNode& node = scene.nodes[i];

@@ -20,18 +20,31 @@ namespace nacre {
 /// per vertex (HSE section 1.1): of at most kMaxVertexLights lights, without relief, shadows and surrounding.
 enum class SceneReflectance { FactoredOrModel, Direct, FastPhong };
 
+/// How shadows of lights that have a SceneShadow are found. Maps: shading/shadow_map.hpp. Volumes: hard ones, exact to
+/// the pixel (shading/multipass/shadow_volume.hpp), of meshes alone; desktop OpenGL.
+enum class ShadowMethod { Maps, Volumes };
+
+/// How volumes soften the shadows of lights with an area, by points of it. Regenerated: each point has its own volumes
+/// and its light is added. Pivot: the volumes of the middle, swept from each point (MPR section 4.4: silhouettes stay);
+/// one volume is stored instead of one a point. Levels: all points' volumes are counted at once, and the light of the
+/// middle is dimmed by the count (PR94's darkness levels): wrong where volumes of one point overlap.
+enum class SoftShadows { Regenerated, Pivot, Levels };
+
 /// The approximations of a picture, each to be switched off by itself.
 struct SceneSwitches {
     SceneReflectance reflectance = SceneReflectance::FactoredOrModel;
     bool lamps = true;  ///< light of the scene's lights
     bool ambient = true;
-    bool shadows = true;                       ///< shadow maps
-    bool relief = true;                        ///< bumped normals, and all of a relief's light
-    std::optional<BumpShadow> reliefShadow{};  ///< instead of the materials' own, where the asset has it
-    bool indirect = true;                      ///< bounced light in reliefs
-    bool surrounding = true;                   ///< the environment on surfaces
-    bool sky = true;                           ///< the environment as background
-    SpecularOptions specular{};                ///< mirrors and panes; depth 0 shows them black
+    bool shadows = true;  ///< of lights that have a SceneShadow
+    ShadowMethod shadowMethod = ShadowMethod::Maps;
+    SoftShadows softShadows = SoftShadows::Regenerated;  ///< with volumes
+    int lightPoints = 16;                                ///< of an area, 1 to 63
+    bool relief = true;                                  ///< bumped normals, and all of a relief's light
+    std::optional<BumpShadow> reliefShadow{};            ///< instead of the materials' own, where the asset has it
+    bool indirect = true;                                ///< bounced light in reliefs
+    bool surrounding = true;                             ///< the environment on surfaces
+    bool sky = true;                                     ///< the environment as background
+    SpecularOptions specular{};                          ///< mirrors and panes; depth 0 shows them black
 };
 
 /// What of a baked asset decides about programs.
@@ -62,6 +75,9 @@ struct SceneProgram {
 
 /// Whether lights matter: they are on, there are some, and the material has a BRDF.
 bool takesLamps(const SceneDescription& scene, const SceneMaterial& material, const SceneSwitches& switches);
+
+/// Whether shadow maps are drawn and looked up.
+bool mapsShadows(const SceneSwitches& switches);
 
 /// The program that draws a material. \param shadows  shadowDefines of the lights' maps, for nodes that receive them
 SceneProgram materialProgram(const SceneDescription& scene, const SceneMaterial& material,

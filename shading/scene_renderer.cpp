@@ -8,6 +8,7 @@
 #include <glm/gtc/matrix_transform.hpp>
 
 #include "core/error.hpp"
+#include "core/light_area.hpp"
 #include "factorize/models/models.hpp"
 #include "shading/context.hpp"
 #include "shading/draw.hpp"
@@ -15,6 +16,7 @@
 #include "shading/gpu_relief_light.hpp"
 #include "shading/mean_light.hpp"
 #include "shading/multipass/pass_runner.hpp"
+#include "shading/multipass/scene_shadow_volumes.hpp"
 #include "shading/pass_state.hpp"
 #include "shading/shadow_map.hpp"
 #include "shading/volume_pass.hpp"
@@ -157,6 +159,8 @@ struct SceneRenderer::State {
     std::vector<std::optional<GpuDirectBrdf>> models;  ///< one a material: what Direct evaluates
     std::map<std::size_t, NodeLight> nodeLights;       ///< of nodes whose relief has indirect light
     std::vector<LightShadow> lightShadows;             ///< one a light
+    std::optional<SceneShadowVolumes> shadowVolumes;   ///< with ShadowMethod::Volumes
+    std::map<std::size_t, Buffer> nodeRadiance;        ///< a vertex, of nodes that have it
     PassClock clock;
     bool timing = false;
     PassSchedule schedule;  ///< of the last frame
@@ -324,7 +328,7 @@ struct SceneRenderer::State {
 
     /// Those in use, one a light or none; for nodes that receive shadows.
     std::vector<const ShadowMap*> shadowsOf(const SceneSwitches& on) const {
-        if (!on.shadows || on.reflectance == SceneReflectance::FastPhong) return {};
+        if (!mapsShadows(on) || on.reflectance == SceneReflectance::FastPhong) return {};
         std::vector<const ShadowMap*> out;
         bool any = false;
         for (const LightShadow& shadow : lightShadows) {
@@ -361,7 +365,19 @@ struct SceneRenderer::State {
         std::vector<Light> lights;
         std::vector<const ShadowMap*> shadows{};
         ShaderDefines shadowDefines{}, viewDefines{};
+        /// AddLight: on nodes that take lamps, and receive shadows or not as `receivers` says.
+        DrawMode mode = DrawMode::Fill;
+        bool receivers = true;
     };
+
+    Frame frameOf(const SceneSwitches& on, const Camera& camera, const std::vector<glm::dmat4>& nodes,
+                  const std::vector<Light>& lights) const {
+        Frame out{on, camera, nodes, lights};
+        out.shadows = shadowsOf(on);
+        out.shadowDefines = shadowDefines(out.shadows, lights);
+        out.viewDefines = viewDefines(scene);
+        return out;
+    }
 
     /// The nodes with meshes that a view may see. Front to back: what is hidden is rejected before it is shaded.
     std::vector<Draw> drawsOf(const Frame& frame, const ScheduledView& view, const RenderTarget& target) const {
@@ -372,6 +388,9 @@ struct SceneRenderer::State {
         for (std::size_t i = 0; i < scene.nodes.size(); ++i) {
             const DrawnMesh* mesh = meshOf(i);
             if (!mesh || i == own) continue;
+            const bool added =
+                takesLamps(scene, materialOf(i), frame.on) && scene.nodes[i].receivesShadow == frame.receivers;
+            if (frame.mode == DrawMode::AddLight && !added) continue;
             const glm::dmat3 m(frame.nodes[i]);
             const double scale =
                 std::sqrt(std::max({glm::dot(m[0], m[0]), glm::dot(m[1], m[1]), glm::dot(m[2], m[2])}));
@@ -406,6 +425,10 @@ struct SceneRenderer::State {
             const bool shadowed = scene.nodes[draw.node].receivesShadow;
             SceneProgram wanted =
                 materialProgram(scene, m, traits, frame.on, shadowed ? frame.shadowDefines : ShaderDefines());
+            const auto radiance = nodeRadiance.find(draw.node);
+            const bool brings =
+                frame.on.ambient && radiance != nodeRadiance.end() && wanted.fragment == "scene.frag.glsl";
+            if (brings) wanted.defines.emplace_back("NACRE_VERTEX_RADIANCE", "1");
             const Program& next =
                 loader.load(wanted.vertex, wanted.fragment, joined(std::move(wanted.defines), frame.viewDefines));
             const bool own = nodeLights.count(draw.node) != 0;  // its texture is the node's, not the material's
@@ -422,7 +445,7 @@ struct SceneRenderer::State {
                 program = &next;
                 material = own ? -1 : scene.nodes[draw.node].material;
             }
-            drawPlaced(next, mesh, frame.nodes[draw.node], view.view.mirrored);
+            drawPlaced(next, mesh, frame.nodes[draw.node], view.view.mirrored, brings ? &radiance->second : nullptr);
         }
     }
 
@@ -462,6 +485,116 @@ struct SceneRenderer::State {
         drawFullscreen(VertexArray());
     }
 
+    /// A lamp with a SceneShadow, as points that cast hard shadows.
+    struct ShadowedLamp {
+        std::size_t light = 0;
+        std::vector<Light> points;
+        std::size_t volumes = 0;  ///< number of the first point's in shadowVolumes
+        bool stored = true;       ///< each point has its own
+    };
+    std::vector<ShadowedLamp> shadowedLamps(const SceneSwitches& on, const std::vector<glm::dmat4>& nodes,
+                                            const std::vector<Light>& lights, std::vector<Vec4>& sources) const {
+        const std::vector<std::optional<LightArea>> areas = areasInWorld(scene, nodes);
+        std::vector<ShadowedLamp> out;
+        for (std::size_t i = 0; i < lights.size(); ++i) {
+            if (!scene.lights[i].shadow) continue;
+            ShadowedLamp lamp{i, {lights[i]}, sources.size(), on.softShadows != SoftShadows::Pivot};
+            if (areas[i]) lamp.points = pointsOfArea(lights[i], *areas[i], on.lightPoints);
+            for (const Light& point : lamp.points)
+                if (lamp.stored || sources.size() == lamp.volumes) sources.push_back(homogeneous(point));
+            out.push_back(std::move(lamp));
+        }
+        return out;
+    }
+
+    /// One frame's target, view and places, for the passes that add light.
+    struct LightPasses {
+        const RenderTarget& target;
+        const Camera& camera;
+        SceneSwitches on;
+        const std::vector<glm::dmat4>& nodes;
+        const std::vector<Light>& lights;
+        ShadowSight sight;
+    };
+
+    /// Light `light` as `value`, no other, where the stencil lets it.
+    void addLight(const LightPasses& f, std::size_t light, const Light& value, bool receivers) {
+        std::vector<Light> alone = f.lights;
+        for (Light& other : alone) other.color = Rgb(0);
+        alone[light] = value;
+        Frame frame = frameOf(f.on, f.camera, f.nodes, alone);
+        frame.mode = DrawMode::AddLight;
+        frame.receivers = receivers;
+        setAddLight();
+        drawNodes(frame, schedule.views.front(), f.target);
+        setDrawState(f.target);
+    }
+
+    /// Each point's light, added where the count of its volumes is zero (MPR section 7.2).
+    void addPoints(const LightPasses& f, ShadowStencil& stencil, const ShadowedLamp& lamp) {
+        for (std::size_t k = 0; k < lamp.points.size(); ++k) {
+            const Light& point = lamp.points[k];
+            stencil.begin(f.target);
+            stencil.lit();
+            addLight(f, lamp.light, point, false);
+            stencil.count(f.target, shadowVolumes->of(lamp.volumes + (lamp.stored ? k : 0)), homogeneous(point),
+                          f.sight);
+            stencil.lit();
+            addLight(f, lamp.light, point, true);
+            stencil.end(f.target);
+        }
+    }
+
+    /// The middle's light, dimmed by how many points' volumes contain a pixel (PR94 "Soft shadows").
+    void addLevels(const LightPasses& f, ShadowStencil& stencil, const ShadowedLamp& lamp) {
+        stencil.begin(f.target);
+        stencil.lit();
+        addLight(f, lamp.light, f.lights[lamp.light], false);
+        for (std::size_t k = 0; k < lamp.points.size(); ++k)
+            stencil.count(f.target, shadowVolumes->of(lamp.volumes + k), homogeneous(lamp.points[k]), f.sight,
+                          ShadowCounting::Auto, true);
+        const std::size_t count = lamp.points.size();
+        for (std::size_t level = 0; level < count; ++level) {
+            Light dimmed = f.lights[lamp.light];
+            dimmed.color *= static_cast<double>(count - level) / static_cast<double>(count);
+            stencil.lit(static_cast<unsigned>(level));
+            addLight(f, lamp.light, dimmed, true);
+        }
+        stencil.end(f.target);
+    }
+
+    /// Everything but light of lamps with a SceneShadow; then that. \throws nacre::Error for nodes with volumes
+    void drawWithShadowVolumes(const RenderTarget& target, const Camera& camera, const SceneSwitches& on,
+                               const std::vector<glm::dmat4>& nodes, const std::vector<Light>& lights) {
+        require(on.lightPoints >= 1 && on.lightPoints <= 63, "scene: expected 1 to 63 points of a light's area");
+        for (const SceneNode& node : scene.nodes)
+            if (node.volume >= 0)
+                throw Error(
+                    fmt::format("shadow volumes: expected meshes alone, found a volume at node '{}'", node.name));
+        std::vector<Vec4> sources;
+        const std::vector<ShadowedLamp> lamps = shadowedLamps(on, nodes, lights, sources);
+        clock("shadow volumes", [&] {
+            if (!shadowVolumes) shadowVolumes.emplace(scene);
+            shadowVolumes->update(nodes, sources);
+        });
+        std::vector<Light> unshadowed = lights;
+        for (const ShadowedLamp& lamp : lamps) unshadowed[lamp.light].color = Rgb(0);
+        SceneSwitches rest = on;
+        rest.lamps = lamps.size() < lights.size();
+        clock("surfaces", [&] { drawNodes(frameOf(rest, camera, nodes, unshadowed), schedule.views.front(), target); });
+        clock("light", [&] {
+            LightPasses frame{target, camera, on, nodes, lights, {}};
+            frame.on.ambient = frame.on.surrounding = false;
+            frame.sight = ShadowSight::of(camera, static_cast<double>(target.width()) / target.height());
+            ShadowStencil stencil(loader);
+            for (const ShadowedLamp& lamp : lamps)
+                if (on.softShadows == SoftShadows::Levels && lamp.points.size() > 1)
+                    addLevels(frame, stencil, lamp);
+                else
+                    addPoints(frame, stencil, lamp);
+        });
+    }
+
     void drawPart(const Frame& frame, const ScheduledView& view, SurfacePart part, const RenderTarget& target) {
         if (part == SurfacePart::Background) {
             // Else: what the target, or the face, was cleared to.
@@ -470,8 +603,14 @@ struct SceneRenderer::State {
                 clock("sky", [&] { drawBackground(frame, view); });
             return;
         }
-        clock("surfaces",
-              [&] { part == SurfacePart::Depth ? drawDepths(frame, view, target) : drawNodes(frame, view, target); });
+        const bool byVolumes = frame.on.shadows && frame.on.lamps && frame.on.shadowMethod == ShadowMethod::Volumes &&
+                               frame.on.reflectance != SceneReflectance::FastPhong;
+        if (byVolumes)
+            drawWithShadowVolumes(target, frame.camera, frame.on, frame.nodes, frame.lights);
+        else
+            clock("surfaces", [&] {
+                part == SurfacePart::Depth ? drawDepths(frame, view, target) : drawNodes(frame, view, target);
+            });
         if (!volumes.empty()) clock("volumes", [&] { drawVolumes(frame, view); });
     }
 
@@ -482,7 +621,7 @@ struct SceneRenderer::State {
         clock.start(timing);
         clock("relief light", [&] { updateNodeLights(on, frame.nodes, frame.lights); });
         const double aspect = static_cast<double>(target.width()) / target.height();
-        if (on.shadows && on.lamps)
+        if (mapsShadows(on) && on.lamps)
             clock("shadow maps", [&] { updateShadows(camera, aspect, frame.nodes, frame.lights); });
         frame.shadows = shadowsOf(on);
         frame.shadowDefines = shadowDefines(frame.shadows, frame.lights);
@@ -490,6 +629,9 @@ struct SceneRenderer::State {
         const Bounds box = sceneBox(frame.nodes);
         schedule = makeSchedule(specularFaces(scene, frame.nodes),
                                 {camera, target.width(), target.height(), box.low, box.high}, on.specular);
+        if (on.shadowMethod == ShadowMethod::Volumes && !schedule.faces.empty())  // views have maps alone
+            throw Error(fmt::format("shadow volumes: expected no specular faces, found node '{}'",
+                                    scene.nodes[schedule.faces.front().node].name));
         std::vector<FaceMesh> faces;
         for (const SpecularFace& face : schedule.faces)
             faces.push_back({&*meshOf(face.node)->gpu, frame.nodes[face.node],
@@ -510,6 +652,26 @@ struct SceneRenderer::State {
             throw;
         }
         prepareModels();
+    }
+
+    void setIndirectLight(const std::vector<std::vector<glm::vec3>>& radiance) {
+        require(radiance.size() == scene.nodes.size(), "scene: expected a list of radiance for each node");
+        for (std::size_t i = 0; i < radiance.size(); ++i) {
+            const int mesh = scene.nodes[i].mesh;
+            const std::size_t vertices =
+                mesh < 0 ? 0 : scene.meshes[static_cast<std::size_t>(mesh)].mesh.positions.size();
+            require(radiance[i].empty() || radiance[i].size() == vertices,
+                    fmt::format("scene: expected {} vertices' radiance at node {}, found {}", vertices, i,
+                                radiance[i].size()));
+        }
+        nodeRadiance.clear();
+        for (std::size_t i = 0; i < radiance.size(); ++i) {
+            if (radiance[i].empty()) continue;
+            glBindBuffer(GL_ARRAY_BUFFER, nodeRadiance[i].name());
+            glBufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(radiance[i].size() * sizeof(glm::vec3)),
+                         radiance[i].data(), GL_STATIC_DRAW);
+        }
+        glBindBuffer(GL_ARRAY_BUFFER, 0);
     }
 
     void setScene(SceneDescription&& next) {
@@ -544,6 +706,8 @@ struct SceneRenderer::State {
         nodeLights.clear();
         lightShadows.clear();
         faceTextures.clear();
+        shadowVolumes.reset();
+        nodeRadiance.clear();
         prepareModels();
     }
 };
@@ -572,6 +736,10 @@ void SceneRenderer::render(const RenderTarget& target, const Camera& camera, dou
     state_->render(target, camera, time, switches);
 }
 
+ShadowVolumeCounts SceneRenderer::shadowVolumes() const {
+    return state_->shadowVolumes ? state_->shadowVolumes->counts() : ShadowVolumeCounts();
+}
+
 void SceneRenderer::setTiming(bool on) { state_->timing = on; }
 const std::vector<PassTime>& SceneRenderer::passes() const { return state_->clock.times; }
 const PassSchedule& SceneRenderer::schedule() const { return state_->schedule; }
@@ -587,6 +755,10 @@ void SceneRenderer::setNodeMaterial(std::size_t node, int material) {
 }
 void SceneRenderer::setSky(const SceneSky& value) { state_->edit(state_->scene.sky, value); }
 void SceneRenderer::setScene(SceneDescription scene) { state_->setScene(std::move(scene)); }
+
+void SceneRenderer::setIndirectLight(const std::vector<std::vector<glm::vec3>>& radiance) {
+    state_->setIndirectLight(radiance);
+}
 
 std::vector<AssetChange> SceneRenderer::reloadAssets() {
     std::vector<AssetChange> changes =

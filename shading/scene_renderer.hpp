@@ -8,6 +8,7 @@
 
 #include "core/scene_description.hpp"
 #include "shading/multipass/pass_schedule.hpp"
+#include "shading/multipass/scene_shadow_volumes.hpp"
 #include "shading/program.hpp"
 #include "shading/render_target.hpp"
 #include "shading/scene_assets.hpp"
@@ -15,7 +16,8 @@
 
 namespace nacre {
 
-/// What a part of a frame took: `relief light`, `shadow maps`, `surfaces`, `volumes`, `sky`.
+/// What a part of a frame took: `relief light`, `shadow maps` or `shadow volumes` (made), `surfaces`, `light` (with
+/// volumes counted), `volumes`, `sky`.
 struct PassTime {
     std::string name;
     double wallSeconds = 0;  ///< between two glFinish
@@ -44,6 +46,9 @@ public:
 
     SceneSwitches switches;  ///< of the next frame; change it freely
 
+    /// Of the last frame with ShadowMethod::Volumes.
+    ShadowVolumeCounts shadowVolumes() const;
+
     /// With timing on, passes() tells what the parts of the last frame took; it costs a glFinish a part.
     void setTiming(bool on);
     const std::vector<PassTime>& passes() const;
@@ -61,6 +66,11 @@ public:
     /// Assets whose files changed (SceneAssets::reload). One that no longer fits the scene keeps its last good state
     /// too.
     std::vector<AssetChange> reloadAssets();
+
+    /// Radiance that leaves nodes' vertices on its own, drawn with the ambient light (MPR section 6): one list a node,
+    /// empty or a value for each vertex of its mesh. Until the next setScene.
+    /// \throws std::invalid_argument for other lengths
+    void setIndirectLight(const std::vector<std::vector<glm::vec3>>& radiance);
 
     /// Programs of the scene under the present switches.
     std::vector<ListedProgram> programs() const;

@@ -134,6 +134,27 @@ TEST(CommandRender, MirrorsAndPanesAreDrawnTracedAndListed) {
     EXPECT_FALSE(std::filesystem::exists(scratch / "d.png"));
 }
 
+TEST(CommandRender, ShadowsByVolumes) {
+    const Scratch scratch;
+    const Outcome run = nacre({"render", sceneFile(scratch), "-o", scratch / "v.png", "--size", "96x64", "--shadows",
+                               "volumes", "--light-points", "4", "--soft", "pivot", "--reference", "--json"});
+    ASSERT_EQ(run.code, 0) << run.err;
+    const json data = json::parse(run.out);
+    EXPECT_GT(data["errors"]["all"]["psnr"], 35);
+    EXPECT_GT(data["shadow_volumes"]["made"], 0);
+    const Outcome radiosity =
+        nacre({"render", sceneFile(scratch), "-o", scratch / "r.png", "--size", "16x16", "--radiosity", "--json"});
+    ASSERT_EQ(radiosity.code, 0) << radiosity.err;
+    EXPECT_LE(json::parse(radiosity.out)["radiosity"]["left"], 1);
+    for (const auto& [flag, words] :
+         {std::pair{"--shadows", "maps or volumes"}, {"--soft", "regenerated, pivot or levels"}}) {
+        const Outcome wrong = nacre({"render", sceneFile(scratch), "-o", scratch / "w.png", flag, "blurred"});
+        EXPECT_EQ(wrong.code, 2);
+        EXPECT_THAT(wrong.err, HasSubstr(words));
+        EXPECT_FALSE(std::filesystem::exists(scratch / "w.png"));
+    }
+}
+
 TEST(CommandRender, MeshFilesAndEmptyScenes) {
     const Scratch scratch;
     writeFile(scratch / "triangle.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");

@@ -41,7 +41,8 @@ constexpr const char* kEverything = R"({
   "lights": {
     "sun": {"type": "directional", "color": [1, 1, 1], "intensity": 2, "direction": [0, -1, 0],
             "shadow": {"size": 512, "bits": 16, "filter": 5, "faces": "front", "bias": 0.1, "near": 1, "far": 2, "cascades": 4}},
-    "bulb": {"type": "point", "color": 1, "intensity": 2, "node": "n", "position": [0, 1, 0], "shadow": {"projection": "cube"}},
+    "bulb": {"type": "point", "color": 1, "intensity": 2, "node": "n", "position": [0, 1, 0], "shadow": {"projection": "cube"},
+             "area": {"u": [1, 0, 0], "v": [0, 0, 1]}},
     "lamp": {"type": "spot", "color": 1, "intensity": 2, "node": "n", "position": [0, 1, 0], "target": [0, 0, 0],
              "innerDeg": 1, "outerDeg": 2, "shadow": true},
     "torch": {"type": "spot", "direction": [0, 0, 1]}
@@ -197,7 +198,7 @@ TEST_F(SceneSchema, SchemaAndReaderKnowTheSameKeys) {
         EXPECT_TRUE(schema_.accepts(schema_.root(), scene));
         visit(scene, schema_.root(), json::json_pointer());
     }
-    EXPECT_EQ(objects_.size(), 21u) << "kinds of objects";
+    EXPECT_EQ(objects_.size(), 22u) << "kinds of objects";
     for (const auto& [schema, keys] : objects_) {
         EXPECT_EQ(keys.inSchema, keys.inReader) << schema->dump();
         EXPECT_EQ(keys.inSchema, keys.used) << "kEverything and kOtherwise must use every key of " << schema->dump();
@@ -225,6 +226,7 @@ TEST_F(SceneSchema, BothRefuse) {
                                                                {"/materials/a/surrounding/reflection/lod", 33},
                                                                {"/materials/a/surrounding/combine", true},
                                                                {"/lights/sun/type", "area"},
+                                                               {"/lights/bulb/area/u", {1, 2}},
                                                                {"/lights/sun/intensity", -1},
                                                                {"/lights/sun/shadow/bits", 24},
                                                                {"/lights/sun/shadow/size", 8},

@@ -212,6 +212,7 @@ std::vector<ProgramCase> programs() {
     out.push_back({"fullscreen.vert.glsl", "prefilter_copy.frag.glsl", {{}}});
     out.push_back({"fullscreen.vert.glsl", "prefilter_halve.frag.glsl", {{}}});
     out.push_back({"fullscreen.vert.glsl", "present.frag.glsl", {{}}});
+    out.push_back({"stencil_volume.vert.glsl", "stencil.frag.glsl", {{}, {{"NACRE_STENCIL_BEYOND_FAR", "1"}}}});
     const std::vector<ShaderDefines> surroundings = environmentChoices();
     out.push_back({"lit.vert.glsl", "environment.frag.glsl", {surroundings.rbegin(), surroundings.rend()}});
     out.push_back({"sky.vert.glsl", "sky.frag.glsl", surroundings});
@@ -232,6 +233,7 @@ std::vector<ProgramCase> programs() {
         volumes.push_back(combined(combined({brdfs.front()}, {lamps}), {shadow}).front());
     out.push_back({"volume.vert.glsl", "volume.frag.glsl", combined(volumes, {{}, {{"NACRE_VOLUME_MARCH", "1"}}})});
     std::vector<ShaderDefines> scenes = combined({everything}, bumpChoices());
+    scenes.push_back({{"NACRE_VERTEX_RADIANCE", "1"}});
     scenes.push_back({});
     scenes.push_back(combined({brdfs.front()}, {lamps}).front());
     scenes.push_back(combined({surroundings.back()}, {surrounding}).front());

@@ -1,0 +1,51 @@
+#include "cli/scene_light.hpp"
+
+#include <fmt/format.h>
+
+#include "cli/output_file.hpp"
+#include "cli/verb.hpp"
+#include "reference/albedo.hpp"
+#include "reference/scene_rays.hpp"
+#include "reference/scene_truths.hpp"
+#include "shading/multipass/radiosity.hpp"
+
+namespace nacre::cli {
+
+ShadowMethod shadowMethodOf(const std::string& text) {
+    if (text == "maps") return ShadowMethod::Maps;
+    if (text == "volumes") return ShadowMethod::Volumes;
+    throw UsageError(fmt::format("--shadows: expected maps or volumes, found '{}'", text));
+}
+
+SoftShadows softShadowsOf(const std::string& text) {
+    if (text == "regenerated") return SoftShadows::Regenerated;
+    if (text == "pivot") return SoftShadows::Pivot;
+    if (text == "levels") return SoftShadows::Levels;
+    throw UsageError(fmt::format("--soft: expected regenerated, pivot or levels, found '{}'", text));
+}
+
+nlohmann::json volumesJson(const ShadowVolumeCounts& c) {
+    return {{"made", c.made},
+            {"bytes", c.bytes},
+            {"point_bytes", c.pointBytes},
+            {"bytes_of_a_volume_a_polygon", c.bytesAPolygon}};
+}
+
+nlohmann::json addRadiosity(SceneRenderer& renderer, double time) {
+    const Stopwatch watch;
+    const SceneDescription& scene = renderer.scene();
+    std::vector<Rgb> albedos;
+    for (const MaterialTruth& m : openTruths(scene).materials)
+        albedos.push_back(m.brdf ? glm::min(directionalAlbedo(m.brdf, {std::sqrt(0.5), 0, std::sqrt(0.5)}), Rgb(0.99))
+                                 : Rgb(0));
+    const SceneRays rays(scene, nodeTransforms(scene, time));
+    const Visible visible = [&](const Vec3& a, const Vec3& b) {
+        const double length = glm::length(b - a);
+        return !rays.shadowed(a, (b - a) / length, length);
+    };
+    const IndirectLight light = sceneIndirectLight(scene, time, albedos, visible);
+    renderer.setIndirectLight(light.radiance);
+    return {{"shots", light.shots}, {"left", light.left}, {"seconds", watch.seconds()}};
+}
+
+}  // namespace nacre::cli

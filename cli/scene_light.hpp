@@ -1,0 +1,21 @@
+// How `nacre render` is told of shadows and of light between meshes.
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "shading/scene_renderer.hpp"
+
+namespace nacre::cli {
+
+/// Words of --shadows and --soft. \throws UsageError that lists them
+ShadowMethod shadowMethodOf(const std::string& text);
+SoftShadows softShadowsOf(const std::string& text);
+
+nlohmann::json volumesJson(const ShadowVolumeCounts& counts);
+
+/// Gives the renderer light between the scene's meshes as they stand at `time`: albedos of the unbaked BRDFs at 45
+/// degrees, visibility by rays. \return  shots, the share of the power left unshot, seconds
+nlohmann::json addRadiosity(SceneRenderer& renderer, double time);
+
+}  // namespace nacre::cli

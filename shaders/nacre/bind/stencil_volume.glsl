@@ -1,0 +1,10 @@
+// The light that shadow volumes are swept from. C++: ShadowStencil (shading/multipass/shadow_stencil.hpp).
+#ifndef NACRE_BIND_STENCIL_VOLUME_GLSL
+#define NACRE_BIND_STENCIL_VOLUME_GLSL
+
+uniform vec4 nacre_stencil_light;  // homogeneous, in the world: position and 1, or unit direction towards it and 0
+
+// A point in the world swept away from the light to infinity, homogeneous.
+vec4 nacre_swept(vec3 point) { return vec4(point * nacre_stencil_light.w - nacre_stencil_light.xyz, 0.0); }
+
+#endif

@@ -1,0 +1,57 @@
+// Shadow volumes (Crow 1977; MPR section 4.1) of any mesh, as lists of its points: no view is in them, and a mirror's
+// image of one is the same lists under the mirror's matrix (MPR section 4.3).
+#pragma once
+
+#include <span>
+
+#include "core/shadow_view.hpp"
+#include "shading/multipass/shadow_mesh.hpp"
+
+namespace nacre {
+
+/// A light as a homogeneous point: its position and 1, or the unit direction towards it and 0.
+Vec4 homogeneous(const Light& light);
+
+/// What one object's triangles keep from one light. Each triangle is turned to face the light and swept away from it to
+/// infinity; the sum of these bodies contains a point as often as triangles stand between it and the light. Sides of
+/// neighbouring triangles cancel (plus-minus counting), which leaves:
+///   sides  from each edge, away from the light, as often as the triangles at it don't cancel: once at a silhouette or
+///          a border, twice where two triangles fold over it;
+///   caps   the triangles, and the same at infinity. A light at infinity has one vanishing point and no far cap.
+/// A solid (ShadowMesh::solid) that the light is outside of needs the triangles that face the light alone: what enters
+/// it goes through one of them first, or begins inside. Any other mesh takes all of its triangles.
+///
+/// Point 2 i is positions[i], point 2 i + 1 the same swept to infinity. Sides go counter-clockwise seen from outside.
+struct ShadowVolume {
+    struct Sides {
+        std::uint32_t first = 0, count = 0;  ///< of `indices`
+        int times = 1;                       ///< how often they count
+    };
+    std::vector<std::uint32_t> indices;      ///< three points a triangle: sides, then caps; caps name near points
+    std::vector<Sides> sides;                ///< at most a few
+    std::uint32_t caps = 0, capsTurned = 0;  ///< indices of caps that go counter-clockwise seen from the light, and of
+                                             ///< those, after them, that go clockwise
+    bool farCap = true;
+
+    std::size_t bytes() const { return indices.size() * sizeof(std::uint32_t); }
+    /// Triangles that can stand one behind the other: no count is higher.
+    std::size_t mostLayers() const { return (caps + capsTurned) / 3; }
+};
+
+/// \param light  in the world, homogeneous. O(triangles), with a light inside the body's box some 10 times that.
+/// \throws std::invalid_argument unless toWorld and light are finite
+ShadowVolume makeShadowVolume(const ShadowMesh& mesh, const glm::dmat4& toWorld, const Vec4& light);
+
+/// Bytes of the same encoding with a volume for each polygon: three sides and a cap each.
+std::size_t bytesOfVolumeAPolygon(const ShadowMesh& mesh, const Vec4& light);
+
+/// Whether no point of `window` is in the shadow of what is in `casters`, proved by a plane between both and the light.
+/// With the window that a view looks through (a camera's near rectangle, a mirror's face), each side that hides a
+/// point behind it from the eye is then crossed beyond it, and z-pass counting needs no caps. False may be wrong, true
+/// never. \param window  corners, convex, flat
+bool windowIsLit(std::span<const Vec3> window, const Bounds& casters, const Vec4& light);
+
+/// Corners of what is on the near plane of a view, in turn. \param clipToWorld  inverse of projection · view
+std::vector<Vec3> nearWindow(const glm::dmat4& clipToWorld);
+
+}  // namespace nacre
