@@ -84,19 +84,21 @@ SceneErrors measureScene(SceneRenderer& renderer, const Image& picture, const Sc
     for (SceneParts& part : parts) part.interreflection = shot.interreflection;
     const SceneTruths truths = openTruths(scene, 0, progress);
     SceneTraceOptions options{.width = shot.width, .height = shot.height, .supersample = rays, .time = shot.time};
+    options.specularDepth = renderer.switches.specular.depth;
     options.progress = progress;
     const Stopwatch watch;
     std::vector<Image> traced = traceScene(scene, scene.camera, truths, parts, options);
+    const SceneSwitches before = renderer.switches;
     SceneErrors out;
     out.seconds = watch.seconds();
     out.notes = truths.notes;
     out.white = pictureWhite(traced[0]);
     out.all = compareImages(picture, traced[0], out.white);
     out.occluded = compareImages(picture, traced[1], out.white);
-    const SceneSwitches before = renderer.switches;
     for (std::size_t i = 0; i < list.size(); ++i) {
         const bool brdf = list[i].without.bakedBrdf;
         renderer.switches = list[i].off;
+        renderer.switches.specular = before.specular;
         renderer.switches.shadowMethod = before.shadowMethod;
         if (brdf) renderer.switches.reflectance = SceneReflectance::Direct;
         const Image off = shoot(renderer, shot);

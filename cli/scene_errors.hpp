@@ -18,6 +18,7 @@ struct SceneShot {
     double time = 0;
     bool interreflection = false;  ///< the reference has light between meshes
 };
+/// Both draw and trace specular surfaces to the depth of the renderer's switches.
 
 /// Means of n × n pixels. \param fine  RGB, n times as large
 Image shrunk(const Image& fine, int n);

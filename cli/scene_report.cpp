@@ -46,6 +46,8 @@ json usesOf(const SceneDescription& scene, const SceneMaterial& material) {
         add("diffuse", material.surrounding->diffuse.asset);
         add("table", material.surrounding->table);
     }
+    if (material.specular)
+        out["specular"] = material.specular->ior ? fmt::format("index {:g}", *material.specular->ior) : "mirror";
     return out;
 }
 

@@ -7,6 +7,7 @@
 
 #include "cli/numbers.hpp"
 #include "cli/output_file.hpp"
+#include "cli/pass_list.hpp"
 #include "cli/picture_output.hpp"
 #include "cli/render_transfer.hpp"
 #include "cli/scene_errors.hpp"
@@ -29,7 +30,7 @@ struct Settings {
     double white = 0;  ///< 0: of the picture
     int rays = 4;
     SceneSwitches switches;
-    bool reference = false, shares = false, asJson = false;
+    bool reference = false, shares = false, asJson = false, passes = false;
     TransferPictures transfer;  ///< when the scene is a transfer file
     std::string weights;
     std::string sceneFlag, transferFlag;  ///< the first option given that only scenes have, only transfer files
@@ -104,16 +105,22 @@ void runTransferFile(const Context& context, const Settings& s) {
 }
 
 void runRender(const Context& context, const Settings& s) {
+    if (s.output.empty() && !s.passes) throw UsageError("--output: expected a name, found none");
     if (isTransferFile(s.scene)) return runTransferFile(context, s);
     if (!s.transferFlag.empty())
         throw UsageError(
             fmt::format("{}: expected a file that nacre transfer wrote, found {}", s.transferFlag, s.scene));
-    const std::string ending = pictureEnding(s.output);
+    const std::string ending = s.passes ? "" : pictureEnding(s.output);
     const Progress progress = terminalProgress(context.quiet);
     report(progress, "reading " + s.scene, 0);
     SceneOptions reading;
     reading.note = [](const std::string& line) { tell(line); };
+    reading.needAssets = !s.passes;
     SceneDescription scene = readScene(s.scene, reading);
+    if (s.passes) {
+        endProgress();
+        return putData(passList(scene, s.shot, s.switches.specular, s.asJson));
+    }
     const nacre::Context gl(GlApi::Core33);
     ProgramLoader loader;
     SceneRenderer renderer(loader, std::move(scene));
@@ -181,6 +188,11 @@ std::vector<Option> sceneOptions(const std::shared_ptr<Settings>& s) {
     return {
         {"--time", "S", "Seconds into a scene's animation (default 0)",
          only(s->sceneFlag, "--time", finiteInto(s->shot.time))},
+        {"--depth", "N", "Mirrors and panes along a path from the eye (default 4)",
+         only(s->sceneFlag, "--depth",
+              integerInto([s](long long v) { s->switches.specular.depth = static_cast<int>(v); }, 0, 1000))},
+        {"--passes", "", "Print the passes that draw a scene, and draw nothing",
+         only(s->sceneFlag, "--passes", into(s->passes))},
         {"--rays", "N", "Of a scene's reference: N x N rays a pixel (default 4)",
          only(s->sceneFlag, "--rays", integerInto([s](long long v) { s->rays = static_cast<int>(v); }, 1, 16))},
         {"--shadows", "METHOD", "Of lights that have shadows: maps (default) or volumes, which are hard and exact",
@@ -231,7 +243,7 @@ std::vector<Option> transferOptions(const std::shared_ptr<Settings>& s) {
 std::vector<Option> options(const std::shared_ptr<Settings>& s) {
     std::vector<Option> out = {
         {"scene", "FILE", "The scene, or a file that nacre transfer wrote", into(s->scene), true},
-        {"-o,--output", "OUT", "The picture to write, .exr or .png", into(s->output), true},
+        {"-o,--output", "OUT", "The picture to write, .exr or .png", into(s->output)},
         {"--size", "WxH", "Pixels (default 512x512)", [s](const std::string& text) { takeSize(s->shot, text); }},
         {"--samples", "N", "N x N shaded samples a pixel (default 2)",
          integerInto([s](long long v) { s->shot.samples = static_cast<int>(v); }, 1, 8)},

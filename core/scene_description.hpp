@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "core/image.hpp"
 #include "core/scene.hpp"
 #include "core/volume.hpp"
 
@@ -61,6 +62,24 @@ struct SceneRelief {
     int bounces = 2, paths = 64;
 };
 
+/// The surface mirrors or refracts what is around it: of planar meshes alone. A mirror does so on both sides.
+struct SceneSpecular {
+    /// Of what is behind (the normal points to the front) over what is before, > 0; none: a mirror.
+    std::optional<double> ior{};
+    Rgb reflection{1}, transmission{1};  ///< factors of what is reflected and refracted
+    /// A refracting face reflects by Fresnel and refracts the rest; false: all or nothing, at the critical angle
+    /// (PR94).
+    bool partial = true;
+    double surface = 0;  ///< share of the material's own light, in [0, 1]; the rest is specular
+    /// Over the mesh's uv: rgb times the own light, alpha times `surface`. Four channels, row 0 at v = 0. None: all 1.
+    std::shared_ptr<const Image> texture{};
+    /// What is seen in the face fades to this radiance, wholly at this distance from its plane; 0: no fog.
+    Rgb fog{0};
+    double fogDistance = 0;
+    /// Frosted or glossy: the slopes of directions against the normal are off by a Gaussian of this deviation (MPR 3).
+    double spread = 0;
+};
+
 /// What a surface is made of. Any subset: each member that is set adds its light.
 struct SceneMaterial {
     std::string name;
@@ -69,6 +88,7 @@ struct SceneMaterial {
     Rgb ambient{0};     ///< radiance added
     std::optional<SceneRelief> relief;
     std::optional<SceneSurrounding> surrounding;
+    std::optional<SceneSpecular> specular;
 };
 
 /// A mesh or volume, or instance of one, in the hierarchy. Local to parent: translation · rotation · scale.

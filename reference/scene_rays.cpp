@@ -54,6 +54,13 @@ SceneRays::SceneRays(const SceneDescription& scene, const std::vector<glm::dmat4
     }
 }
 
+Vec3 SceneRays::World::normalOf(std::uint32_t triangle) const {
+    const glm::uvec3& t = mesh.triangles[triangle];
+    const Vec3 a(mesh.positions[t.x]), b(mesh.positions[t.y]), c(mesh.positions[t.z]);
+    const Vec3 n = glm::cross(b - a, c - a);
+    return glm::dot(n, n) > 0 ? glm::normalize(n) : n;
+}
+
 std::optional<SceneRays::Hit> SceneRays::firstHit(const Ray& ray, const Vec3& toEye) const {
     const RayHit onMesh = all_.firstHit(ray);
     Ray rest = ray;
@@ -64,8 +71,10 @@ std::optional<SceneRays::Hit> SceneRays::firstHit(const Ray& ray, const Vec3& to
             rest.far = *t;
             nearest = &volume;
         }
-    if (nearest) return Hit{nearest->field.at(ray.origin + rest.far * ray.direction, toEye), nearest->node};
-    if (onMesh.found) return Hit{surfaceAt(world_.mesh, onMesh, toEye), world_.nodeOf(onMesh.triangle)};
+    if (nearest) return Hit{nearest->field.at(ray.origin + rest.far * ray.direction, toEye), nearest->node, Vec3(0)};
+    if (onMesh.found)
+        return Hit{surfaceAt(world_.mesh, onMesh, toEye), world_.nodeOf(onMesh.triangle),
+                   world_.normalOf(onMesh.triangle)};
     return {};
 }
 

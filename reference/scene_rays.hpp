@@ -18,6 +18,7 @@ public:
     struct Hit {
         SurfacePoint s;
         std::size_t node = 0;
+        Vec3 plane{0};  ///< unit normal of the triangle, to where it is counter-clockwise; of volumes 0
     };
     /// \param toEye  unit, against the ray
     std::optional<Hit> firstHit(const Ray& ray, const Vec3& toEye) const;
@@ -33,6 +34,7 @@ private:
     struct World {
         World(const SceneDescription& scene, const std::vector<glm::dmat4>& nodes, bool castersAlone);
         std::size_t nodeOf(std::uint32_t triangle) const;
+        Vec3 normalOf(std::uint32_t triangle) const;
         Mesh mesh;
         std::vector<std::size_t> firstTriangle, nodes;
     };

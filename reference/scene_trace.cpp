@@ -11,7 +11,7 @@
 #include "core/parallel.hpp"
 #include "core/sampling.hpp"
 #include "reference/camera_rays.hpp"
-#include "reference/scene_rays.hpp"
+#include "reference/specular_path.hpp"
 
 namespace nacre {
 namespace {
@@ -122,7 +122,8 @@ public:
           lights_(lightsInWorld(scene, nodes_)),
           areas_(areasInWorld(scene, nodes_)),
           surfaces_(scene, nodes_),
-          rays_(camera, options.width, options.height, options.supersample),
+          rays_(options.points.empty() ? CameraRays(camera, options.width, options.height, options.supersample)
+                                       : CameraRays(camera, options.width, options.height, options.points)),
           turn_(Mat3(glm::rotate(glm::dmat4(1), -scene.sky.rotationY, Vec3(0, 1, 0)))) {
         for (const SceneParts& p : parts) occlusion_ = occlusion_ || p.occlusion;
     }
@@ -130,17 +131,22 @@ public:
     void pixel(int x, int y, std::vector<Image>& out) const {
         std::vector<Rgb> sums(parts_.size(), Rgb(0));
         for (int k = 0; k < rays_.samples(); ++k) {
-            const Ray ray = rays_.at(x, y, k);
-            const Vec3 direction = glm::normalize(ray.direction);
-            const std::optional<SceneRays::Hit> hit = surfaces_.firstHit(ray, -direction);
-            if (!hit) {
-                for (std::size_t i = 0; i < sums.size(); ++i) sums[i] += background(parts_[i], direction);
-                continue;
-            }
-            Point point = pointAt(*hit);
-            point.pixel = static_cast<std::uint64_t>(y) * options_.width + x;
-            point.ray = static_cast<unsigned>(k);
-            for (std::size_t i = 0; i < sums.size(); ++i) sums[i] += radiance(point, parts_[i]);
+            const auto pixel = static_cast<std::uint64_t>(y) * options_.width + x;
+            SpecularPathOptions path{options_.specularDepth, options_.spreadRays, {}};
+            path.next = PixelSequence(options_.seed, pixel, 4, static_cast<unsigned>(k * options_.spreadRays));
+            const Rgb fog = followSpecular(scene_, surfaces_, rays_.at(x, y, k), path, [&](const PathEnd& end) {
+                if (!end.hit) {
+                    for (std::size_t i = 0; i < sums.size(); ++i)
+                        sums[i] += end.share * background(parts_[i], end.direction);
+                    return;
+                }
+                Point point = pointAt(*end.hit);
+                point.pixel = pixel;
+                point.ray = static_cast<unsigned>(k);
+                const Rgb share = end.share * end.texel;
+                for (std::size_t i = 0; i < sums.size(); ++i) sums[i] += share * radiance(point, parts_[i]);
+            });
+            for (Rgb& sum : sums) sum += fog;
         }
         for (std::size_t i = 0; i < sums.size(); ++i) out[i].setRgb(x, y, sums[i] / double(rays_.samples()));
     }
@@ -393,8 +399,9 @@ std::vector<Image> traceScene(const SceneDescription& scene, const Camera& camer
                               const std::vector<SceneParts>& parts, const SceneTraceOptions& options) {
     require(options.width >= 1 && options.height >= 1 && options.supersample >= 1 && options.skyRays >= 1 &&
                 options.indirectPaths >= 1 && options.occlusionRays >= 1 && options.lightPoints >= 1 &&
-                options.interreflectionPaths >= 1 && options.interreflectionBounces >= 1,
-            "traceScene: sizes and numbers of rays must be >= 1");
+                options.interreflectionPaths >= 1 && options.interreflectionBounces >= 1 &&
+                options.specularDepth >= 0 && options.spreadRays >= 1,
+            "traceScene: sizes and numbers of rays must be >= 1, the specular depth >= 0");
     require(truths.materials.size() == scene.materials.size(), "traceScene: expected a truth for each material");
     for (const SceneLight& light : scene.lights) checkCone(light.light);
     const Tracer tracer(scene, camera, truths, parts, options);

@@ -25,7 +25,10 @@ struct SceneParts {
 struct SceneTraceOptions {
     int width = 512, height = 512;  ///< [pixels] ≥ 1
     int supersample = 2;            ///< n × n rays a pixel on a regular grid, ≥ 1
+    std::vector<Vec2> points{};     ///< of a pixel's rays, from its upper left corner to (1, 1); none: the grid
     double time = 0;                ///< [s]
+    int specularDepth = 4;          ///< specular surfaces along a path; the last shows its own light alone
+    int spreadRays = 16;            ///< of a ray that meets a frosted or glossy one
     int skyRays = 4;                ///< of a ray, into a relief's sky: what of the diffuse and ambient light is blocked
     int indirectPaths = 4;          ///< of a ray
     int occlusionRays = 8;          ///< of a ray, into each of the surrounding's lobes; with SceneParts::occlusion
@@ -49,8 +52,9 @@ struct SceneTraceOptions {
 ///                albedo and bounces; Lambert
 ///   surrounding  integrals of the unbaked environment over the lobe that the baked level states, exact Fresnel; minus,
 ///                of the diffuse part, what the relief blocks
-/// The last three lines' rays are random (Monte Carlo; the estimate is unbiased but for averages over 3° of what is
-/// blocked). In neither picture: light that bounces between meshes, or in reliefs from other lights and the
+///   specular     mirrors and panes send rays on, exactly (specular_path.hpp); what is above is of where they end
+/// The three lines before the last are of random rays (Monte Carlo; the estimate is unbiased but for averages over 3°
+/// of what is blocked). In neither picture: light that bounces between meshes, or in reliefs from other lights and the
 /// surrounding; reliefs as seen in mirrored and refracted directions; parallax. \throws std::invalid_argument: sizes or
 /// counts < 1, truths for another number of materials, non-finite positions
 std::vector<Image> traceScene(const SceneDescription& scene, const Camera& camera, const SceneTruths& truths,

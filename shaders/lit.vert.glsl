@@ -17,6 +17,9 @@ out vec3 v_position;
 out vec3 v_normal;
 out vec4 v_tangent;
 out vec2 v_uv;
+#ifdef NACRE_VIEW
+invariant gl_Position;  // passes meet at equal depths
+#endif
 
 invariant gl_Position;  // shadow volumes and passes that add light find the same depth
 
@@ -29,4 +32,7 @@ void main() {
     v_radiance = radiance;
 #endif
     gl_Position = nacre_world_to_clip * vec4(v_position, 1.0);
+#ifdef NACRE_VIEW
+    gl_ClipDistance[0] = dot(nacre_view_clip, vec4(v_position, 1.0));
+#endif
 }

@@ -1,9 +1,13 @@
 // Lit surface, addressed per vertex: looks the interpolated vectors up as they come.
 #include "nacre/bind/brdf.glsl"
 #include "nacre/bind/lights.glsl"
+#include "nacre/bind/view.glsl"
 
 in vec3 v_wo;
 in vec4 v_light[4];
+#ifdef NACRE_VIEW
+in vec3 v_position;
+#endif
 
 out vec4 color;
 
@@ -15,5 +19,8 @@ void main() {
         if (wi.z <= 0.0 || v_wo.z <= 0.0) continue;
         sum += nacre_brdf(wi, v_wo) * (wi.z * v_light[i].w) * nacre_light_color[i];
     }
+#ifdef NACRE_VIEW
+    sum = nacre_view_seen(sum, v_position);
+#endif
     color = vec4(sum, 1.0);
 }

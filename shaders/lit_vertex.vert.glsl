@@ -12,6 +12,10 @@ layout(location = 2) in vec4 tangent;
 
 out vec3 v_wo;
 out vec4 v_light[4];  // wi, falloff
+#ifdef NACRE_VIEW
+out vec3 v_position;
+invariant gl_Position;  // passes meet at equal depths
+#endif
 
 void main() {
     vec3 world = nacre_mesh_position(position), n = nacre_mesh_normal(normal);
@@ -25,4 +29,8 @@ void main() {
             v_light[i] = vec4(nacre_to_local(frame, to_light), nacre_light_share(i, to_light, world));
     }
     gl_Position = nacre_world_to_clip * vec4(world, 1.0);
+#ifdef NACRE_VIEW
+    v_position = world;
+    gl_ClipDistance[0] = dot(nacre_view_clip, vec4(world, 1.0));
+#endif
 }

@@ -2,6 +2,8 @@
 //   NACRE_SCENE_LAMPS        light of lamps by a BRDF (nacre/bind/lamps.glsl)
 //   NACRE_VERTEX_RADIANCE    radiance that the vertices bring, added like ambient light
 //   NACRE_SCENE_SURROUNDING  light of the surrounding (nacre/bind/environment.glsl)
+//   NACRE_VIEW               from a virtual viewpoint (nacre/bind/view.glsl)
+//   NACRE_FACE_TEXTURE       a texture over a specular face's own light (nacre/bind/face.glsl)
 // and those of nacre/bind/bump.glsl its relief. Ambient light is always there. C++: shading/scene_programs.hpp.
 #include "nacre/bind/bump.glsl"
 #include "nacre/bind/lights.glsl"
@@ -12,6 +14,9 @@
 #endif
 #ifdef NACRE_SCENE_SURROUNDING
 #include "nacre/bind/environment.glsl"
+#endif
+#ifdef NACRE_FACE_TEXTURE
+#include "nacre/bind/face.glsl"
 #endif
 
 in vec3 v_position;
@@ -36,6 +41,13 @@ void main() {
 #endif
 #ifdef NACRE_SCENE_SURROUNDING
     sum += nacre_env_radiance(to_eye, point.frame[2], point.visibility);
+#endif
+#ifdef NACRE_FACE_TEXTURE
+    vec4 texel = nacre_face_texel(v_uv);
+    sum *= texel.rgb * texel.a;
+#endif
+#ifdef NACRE_VIEW
+    sum = nacre_view_seen(sum, v_position);
 #endif
     color = vec4(sum, 1.0);
 }

@@ -15,8 +15,8 @@
 #endif
 
 #ifdef NACRE_VOLUME_MARCH
-in vec3 v_near;
-in vec3 v_far;
+in vec4 v_near;
+in vec4 v_far;
 #else
 in vec3 v_position;
 #endif
@@ -25,8 +25,14 @@ out vec4 color;
 
 void main() {
 #ifdef NACRE_VOLUME_MARCH
-    float t = nacre_volume_sight(v_near, v_far);
-    vec3 position = mix(v_near, v_far, min(t, 1.0));
+    vec3 near = v_near.xyz / v_near.w;
+    vec3 far = v_far.xyz / v_far.w;
+#ifdef NACRE_VIEW
+    float before = dot(nacre_view_clip, vec4(near, 1.0));  // on from the plane that clips meshes
+    if (before < 0.0) near = mix(near, far, clamp(before / (before - dot(nacre_view_clip, vec4(far, 1.0))), 0.0, 1.0));
+#endif
+    float t = nacre_volume_sight(near, far);
+    vec3 position = mix(near, far, min(t, 1.0));
     vec4 clip = nacre_world_to_clip * vec4(position, 1.0);
     gl_FragDepth = 0.5 * clip.z / clip.w + 0.5;
     bool kept = t <= 1.0;
@@ -47,6 +53,9 @@ void main() {
 #endif
 #ifdef NACRE_SCENE_SURROUNDING
     sum += nacre_env_radiance(to_eye, outward, 1.0);
+#endif
+#ifdef NACRE_VIEW
+    sum = nacre_view_seen(sum, position);
 #endif
     color = vec4(sum, 1.0);
     if (!kept) discard;

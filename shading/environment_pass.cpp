@@ -141,24 +141,30 @@ void renderDirect(ProgramLoader& loader, const RenderTarget& target, const GpuMe
     renderLit(loader, target, mesh, view, brdf, surface, relief);
 }
 
-void renderSky(ProgramLoader& loader, const RenderTarget& target, const Camera& camera, const EnvironmentLookup& sky,
-               const Mat3& fromWorld) {
+void drawSky(ProgramLoader& loader, const SpecularView& view, const EnvironmentLookup& sky, const Mat3& fromWorld,
+             const ViewLight& light, const ShaderDefines& defines) {
     require(sky.map != nullptr, "renderSky: no map");
     EnvironmentSurface surface;
     surface.reflection = sky;
     surface.fromWorld = fromWorld;
-    const Program& program = loader.load("sky.vert.glsl", "sky.frag.glsl", environmentDefines(surface));
+    const Program& program =
+        loader.load("sky.vert.glsl", "sky.frag.glsl", joined(environmentDefines(surface), defines));
     bindEnvironment(program, surface, kFirstUnit);
-    const double aspect = static_cast<double>(target.width()) / target.height();
-    program.set("nacre_clip_to_world", glm::mat4(glm::inverse(camera.projection(aspect) * camera.view())));
+    setView(program, view, light);
+    program.set("nacre_clip_to_world", glm::mat4(glm::inverse(view.toClip)));
+    program.use();
+    drawFullscreen(VertexArray());
+}
+
+void renderSky(ProgramLoader& loader, const RenderTarget& target, const Camera& camera, const EnvironmentLookup& sky,
+               const Mat3& fromWorld) {
     target.bind();
     glEnable(GL_DEPTH_TEST);
     glDepthFunc(GL_LEQUAL);
     glDepthMask(GL_FALSE);
     glDisable(GL_CULL_FACE);
     glDisable(GL_BLEND);
-    program.use();
-    drawFullscreen(VertexArray());
+    drawSky(loader, viewOf(camera, static_cast<double>(target.width()) / target.height()), sky, fromWorld);
     glDepthFunc(GL_LESS);
     glDepthMask(GL_TRUE);
     checkGl("drawing the surrounding");

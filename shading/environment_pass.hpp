@@ -4,6 +4,7 @@
 
 #include "shading/gpu_environment.hpp"
 #include "shading/lit_pass.hpp"
+#include "shading/multipass/specular_view.hpp"
 
 namespace nacre {
 
@@ -72,5 +73,10 @@ void renderDirect(ProgramLoader& loader, const RenderTarget& target, const GpuMe
 /// orthographic camera all pixels look one way. Leaves depth test LESS and write on, culling and blending off.
 void renderSky(ProgramLoader& loader, const RenderTarget& target, const Camera& camera, const EnvironmentLookup& sky,
                const Mat3& fromWorld = Mat3(1));
+
+/// The same from a virtual viewpoint, in the state that is: what it draws is at the far plane. With NACRE_VIEW among
+/// the defines as `light` says.
+void drawSky(ProgramLoader& loader, const SpecularView& view, const EnvironmentLookup& sky, const Mat3& fromWorld,
+             const ViewLight& light = {}, const ShaderDefines& defines = {});
 
 }  // namespace nacre

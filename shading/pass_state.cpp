@@ -47,10 +47,15 @@ void setView(const Program& program, const Camera& camera, const RenderTarget& t
     setView(program, camera, static_cast<double>(target.width()) / target.height());
 }
 
-void setView(const Program& program, const Camera& camera, double aspect) {
-    program.set("nacre_world_to_clip", glm::mat4(camera.projection(aspect) * camera.view()));
-    const Vec4 eye = camera.orthographic ? Vec4(orthographicDirection(camera), 0) : Vec4(camera.eye, 1);
-    program.set("nacre_eye", glm::vec4(eye));
+void setView(const Program& program, const Camera& camera, double aspect) { setView(program, viewOf(camera, aspect)); }
+
+void setView(const Program& program, const SpecularView& view, const ViewLight& light, double share) {
+    program.set("nacre_world_to_clip", glm::mat4(view.toClip));
+    program.set("nacre_eye", glm::vec4(view.eye));
+    program.set("nacre_view_clip", glm::vec4(view.clip.value_or(Plane(0, 0, 0, 1))));
+    program.set("nacre_view_factor", glm::vec3(light.factor));
+    program.set("nacre_view_share", static_cast<float>(share));
+    program.set("nacre_view_fog", glm::vec4(Vec4(light.fog, light.fogDistance > 0 ? 1 / light.fogDistance : 0)));
 }
 
 static glm::vec4 coneUniform(const std::optional<SpotCone>& cone) {
@@ -99,7 +104,7 @@ void setDrawState(const RenderTarget& target) {
     glDisable(GL_BLEND);
 }
 
-static void setAddLight() {
+void setAddLight() {
     glDepthFunc(GL_EQUAL);
     glDepthMask(GL_FALSE);
     glEnable(GL_BLEND);
@@ -109,14 +114,19 @@ static void setAddLight() {
 
 void drawMesh(const Program& program, const RenderTarget& target, const GpuMesh& mesh, const glm::dmat4& toWorld,
               DrawMode mode, const Buffer* radiance) {
-    setModel(program, toWorld);
     setDrawState(target);
     if (mode == DrawMode::AddLight) setAddLight();
-    glFrontFace(mirrors(toWorld) ? GL_CW : GL_CCW);
+    drawPlaced(program, mesh, toWorld, false, radiance);
+    if (mode == DrawMode::AddLight) setDrawState(target);
+}
+
+void drawPlaced(const Program& program, const GpuMesh& mesh, const glm::dmat4& toWorld, bool mirroredView,
+                const Buffer* radiance) {
+    setModel(program, toWorld);
+    glFrontFace(mirrors(toWorld) != mirroredView ? GL_CW : GL_CCW);
     program.use();
     mesh.draw(radiance);
     glFrontFace(GL_CCW);
-    if (mode == DrawMode::AddLight) setDrawState(target);
     checkGl("drawing a mesh");
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "shading/lit_pass.hpp"
+#include "shading/multipass/specular_view.hpp"
 
 namespace nacre {
 
@@ -21,6 +22,9 @@ ShaderDefines joined(ShaderDefines first, const ShaderDefines& second);
 /// in use.
 void setView(const Program& program, const Camera& camera, const RenderTarget& target);
 void setView(const Program& program, const Camera& camera, double aspect);  ///< width / height
+/// A virtual viewpoint: the rest is for programs with NACRE_VIEW. \param share  of a surface's light that isn't
+/// specular
+void setView(const Program& program, const SpecularView& view, const ViewLight& light = {}, double share = 1);
 void setLights(const Program& program, const LitView& view);
 
 /// Texture units after a BRDF's, three maps and a table of a surrounding, and a relief's.
@@ -41,5 +45,11 @@ enum class DrawMode { Fill, AddLight };
 void drawMesh(const Program& program, const RenderTarget& target, const GpuMesh& mesh,
               const glm::dmat4& toWorld = glm::dmat4(1), DrawMode mode = DrawMode::Fill,
               const Buffer* radiance = nullptr);
+
+/// The same in the state that is. \param mirroredView  outlines turn the other way
+void drawPlaced(const Program& program, const GpuMesh& mesh, const glm::dmat4& toWorld, bool mirroredView = false,
+                const Buffer* radiance = nullptr);
+/// The state of DrawMode::AddLight, from that of setDrawState, which ends it.
+void setAddLight();
 
 }  // namespace nacre

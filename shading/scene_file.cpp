@@ -49,7 +49,8 @@ public:
         readAssets();
         for (const auto& [name, f] : section("meshes")) scene().meshes.push_back(sceneMesh(name, f, folder_));
         for (const auto& [name, f] : section("volumes")) scene().volumes.push_back(sceneVolume(name, f, folder_));
-        for (const auto& [name, f] : section("materials")) scene().materials.push_back(sceneMaterial(name, f, names_));
+        for (const auto& [name, f] : section("materials"))
+            scene().materials.push_back(sceneMaterial(name, f, names_, folder_));
         for (const auto& [name, f] : section("lights")) scene().lights.push_back(sceneLight(name, f, names_));
         readNodes();
         for (std::size_t i = 0; i < names_.lights.size(); ++i)

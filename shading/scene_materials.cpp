@@ -2,7 +2,9 @@
 
 #include <array>
 
+#include "core/image_file.hpp"
 #include "factorize/models/models.hpp"
+#include "shading/scene_manifest.hpp"
 #include "shading/scene_sections.hpp"
 
 namespace nacre {
@@ -67,10 +69,48 @@ SceneRelief relief(const JsonField& field, const SceneNames& names) {
     return out;
 }
 
+/// As four channels.
+std::shared_ptr<const Image> textureOf(const std::filesystem::path& path) {
+    const Image in = readImageFile(path).image;
+    Image out(in.width(), in.height(), 4);
+    const bool grey = in.channels() < 3, alpha = in.channels() % 2 == 0;
+    for (int y = 0; y < in.height(); ++y)
+        for (int x = 0; x < in.width(); ++x) {
+            for (int c = 0; c < 3; ++c) out.at(x, y, c) = in.at(x, y, grey ? 0 : c);
+            out.at(x, y, 3) = alpha ? in.at(x, y, in.channels() - 1) : 1;
+        }
+    return std::make_shared<const Image>(std::move(out));
+}
+
+SceneSpecular specular(const JsonField& field, const std::filesystem::path& folder) {
+    field.requireKeys(
+        {"ior", "reflection", "transmission", "partial", "surface", "texture", "fog", "fogDistance", "spread"});
+    SceneSpecular out;
+    ifThere(field, "ior", [&](const JsonField& f) { out.ior = f.number(1e-3, 1e3); });
+    ifThere(field, "reflection", [&](const JsonField& f) { out.reflection = f.color(); });
+    for (const char* key : {"transmission", "partial"})
+        if (const auto f = field.find(key); f && !out.ior) f->fail("expected \"ior\" beside it, found none");
+    ifThere(field, "transmission", [&](const JsonField& f) { out.transmission = f.color(); });
+    ifThere(field, "partial", [&](const JsonField& f) { out.partial = f.flag(); });
+    ifThere(field, "surface", [&](const JsonField& f) { out.surface = f.number(0, 1); });
+    ifThere(field, "texture", [&](const JsonField& f) {
+        if (out.surface == 0) f.fail("expected \"surface\" beside it, found none");
+        out.texture = named(f, [&] { return textureOf(scenePath(folder, f.text())); });
+    });
+    ifThere(field, "fogDistance", [&](const JsonField& f) { out.fogDistance = f.positive(); });
+    ifThere(field, "fog", [&](const JsonField& f) {
+        if (out.fogDistance == 0) f.fail("expected \"fogDistance\" beside it, found none");
+        out.fog = f.color();
+    });
+    ifThere(field, "spread", [&](const JsonField& f) { out.spread = f.number(0, 10); });
+    return out;
+}
+
 }  // namespace
 
-SceneMaterial sceneMaterial(const std::string& name, const JsonField& field, const SceneNames& names) {
-    field.requireKeys({"brdf", "model", "ambient", "relief", "surrounding"});
+SceneMaterial sceneMaterial(const std::string& name, const JsonField& field, const SceneNames& names,
+                            const std::filesystem::path& folder) {
+    field.requireKeys({"brdf", "model", "ambient", "relief", "surrounding", "specular"});
     SceneMaterial out;
     out.name = name;
     ifThere(field, "brdf", [&](const JsonField& f) { out.brdf = f.nameIn(names.assets, "asset"); });
@@ -81,6 +121,7 @@ SceneMaterial sceneMaterial(const std::string& name, const JsonField& field, con
     ifThere(field, "ambient", [&](const JsonField& f) { out.ambient = f.color(); });
     ifThere(field, "relief", [&](const JsonField& f) { out.relief = relief(f, names); });
     ifThere(field, "surrounding", [&](const JsonField& f) { out.surrounding = surrounding(f, names); });
+    ifThere(field, "specular", [&](const JsonField& f) { out.specular = specular(f, folder); });
     return out;
 }
 

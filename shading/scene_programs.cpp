@@ -12,6 +12,7 @@
 #include "shading/environment_pass.hpp"
 #include "shading/gpu_direct_brdf.hpp"
 #include "shading/mesh_attributes.hpp"
+#include "shading/multipass/specular_face.hpp"
 #include "shading/pass_state.hpp"
 #include "shading/shadow_map.hpp"
 
@@ -232,6 +233,7 @@ void checkScene(const SceneDescription& scene, const std::vector<AssetTraits>& a
         require(track.node >= 0 && track.node < static_cast<int>(scene.nodes.size()) && !track.times.empty() &&
                     track.times.size() == track.values.size(),
                 "scene: a track needs a node, times, and a value for each");
+    checkSpecular(scene);
     MaterialCheck(scene, assets, "sky").kind(scene.sky.asset, "asset", {"environment"});
     require(std::isfinite(scene.sky.rotationY) && std::isfinite(scene.sky.lod), "sky: expected finite numbers");
 }
@@ -284,10 +286,15 @@ SceneProgram materialProgram(const SceneDescription& scene, const SceneMaterial&
         defines.emplace_back("NACRE_SCENE_SURROUNDING", "1");
         defines = joined(std::move(defines), surroundingDefines(*m.surrounding, assets));
     }
+    if (m.specular && m.specular->texture) defines.emplace_back("NACRE_FACE_TEXTURE", "1");
     if (const auto relief = reliefOf(m, assets, switches))
         defines = joined(std::move(defines), bumpDefines(relief->shadow, at(assets, relief->asset).wrap,
                                                          relief->roughness, lamps ? relief->indirectLight : -1));
     return {"lit.vert.glsl", "scene.frag.glsl", std::move(defines)};
+}
+
+ShaderDefines viewDefines(const SceneDescription& scene) {
+    return hasSpecular(scene) ? ShaderDefines{{"NACRE_VIEW", "1"}} : ShaderDefines();
 }
 
 SceneSwitches volumeSwitches(SceneSwitches switches) {
@@ -318,6 +325,7 @@ std::vector<ListedProgram> scenePrograms(const SceneDescription& scene, const st
                                    ? materialProgram(scene, material, assets, switches, received)
                                    : volumeProgram(scene, scene.volumes.at(static_cast<std::size_t>(node.volume)),
                                                    material, assets, switches, received);
+        program.defines = joined(std::move(program.defines), viewDefines(scene));
         auto known = std::find_if(out.begin(), out.end(), [&](const ListedProgram& p) { return p.program == program; });
         if (known == out.end()) known = out.insert(out.end(), {std::move(program), {}});
         known->nodes.push_back(static_cast<int>(i));
@@ -326,7 +334,7 @@ std::vector<ListedProgram> scenePrograms(const SceneDescription& scene, const st
         EnvironmentChoices sky;
         sky.layout = at(assets, scene.sky.asset).layout;
         sky.reflection = true;
-        out.push_back({{"sky.vert.glsl", "sky.frag.glsl", environmentDefines(sky)}, {}});
+        out.push_back({{"sky.vert.glsl", "sky.frag.glsl", joined(environmentDefines(sky), viewDefines(scene))}, {}});
     }
     return out;
 }

@@ -10,6 +10,7 @@
 #include "core/asset.hpp"
 #include "core/environment.hpp"
 #include "core/scene_description.hpp"
+#include "shading/multipass/specular_options.hpp"
 #include "shading/shader_source.hpp"
 
 namespace nacre {
@@ -43,6 +44,7 @@ struct SceneSwitches {
     bool indirect = true;                                ///< bounced light in reliefs
     bool surrounding = true;                             ///< the environment on surfaces
     bool sky = true;                                     ///< the environment as background
+    SpecularOptions specular{};                          ///< mirrors and panes; depth 0 shows them black
 };
 
 /// What of a baked asset decides about programs.
@@ -86,6 +88,9 @@ SceneProgram materialProgram(const SceneDescription& scene, const SceneMaterial&
 SceneProgram volumeProgram(const SceneDescription& scene, const SceneVolume& volume, const SceneMaterial& material,
                            const std::vector<AssetTraits>& assets, const SceneSwitches& switches,
                            const ShaderDefines& shadows = {});
+
+/// Of all programs of a scene with specular faces: they draw from virtual viewpoints (shading/multipass/).
+ShaderDefines viewDefines(const SceneDescription& scene);
 
 /// What of the switches holds for volumes, which have no vertices to address textures from: FastPhong is
 /// FactoredOrModel.

@@ -11,9 +11,11 @@
 #include "core/light_area.hpp"
 #include "factorize/models/models.hpp"
 #include "shading/context.hpp"
+#include "shading/draw.hpp"
 #include "shading/environment_pass.hpp"
 #include "shading/gpu_relief_light.hpp"
 #include "shading/mean_light.hpp"
+#include "shading/multipass/pass_runner.hpp"
 #include "shading/multipass/scene_shadow_volumes.hpp"
 #include "shading/pass_state.hpp"
 #include "shading/shadow_map.hpp"
@@ -128,7 +130,13 @@ public:
             glGetQueryObjectui64v(queries_[next_++].name(), GL_QUERY_RESULT, &nanoseconds);
             time.gpuSeconds = static_cast<double>(nanoseconds) * 1e-9;
         }
-        times.push_back(std::move(time));
+        const auto before = std::find_if(times.begin(), times.end(), [&](const PassTime& t) { return t.name == name; });
+        if (before == times.end()) {
+            times.push_back(std::move(time));
+        } else {  // another view's
+            before->wallSeconds += time.wallSeconds;
+            before->gpuSeconds += time.gpuSeconds;
+        }
     }
     std::vector<PassTime> times;
 
@@ -147,6 +155,7 @@ struct SceneRenderer::State {
     std::vector<AssetTraits> traits;
     std::vector<DrawnMesh> meshes;
     std::map<std::shared_ptr<const Volume>, GpuVolume> volumes;
+    std::map<std::shared_ptr<const Image>, Texture> faceTextures;
     std::vector<std::optional<GpuDirectBrdf>> models;  ///< one a material: what Direct evaluates
     std::map<std::size_t, NodeLight> nodeLights;       ///< of nodes whose relief has indirect light
     std::vector<LightShadow> lightShadows;             ///< one a light
@@ -154,6 +163,7 @@ struct SceneRenderer::State {
     std::map<std::size_t, Buffer> nodeRadiance;        ///< a vertex, of nodes that have it
     PassClock clock;
     bool timing = false;
+    PassSchedule schedule;  ///< of the last frame
 
     State(ProgramLoader& programs, SceneDescription&& description)
         : loader(programs), scene(std::move(description)), assets(scene.assets), traits(assets.traits()) {
@@ -169,6 +179,9 @@ struct SceneRenderer::State {
             const std::string model = directModelOf(scene, m, traits);
             models.push_back(model.empty() ? std::nullopt : directBrdf(makeModel(model)));
         }
+        for (const SceneMaterial& m : scene.materials)
+            if (m.specular && m.specular->texture)
+                faceTextures.try_emplace(m.specular->texture, *m.specular->texture, Filter::Linear);
     }
 
     const GpuAsset& asset(int index) const { return assets[static_cast<std::size_t>(index)]; }
@@ -261,6 +274,21 @@ struct SceneRenderer::State {
         return out;
     }
 
+    /// About all that is drawn.
+    Bounds sceneBox(const std::vector<glm::dmat4>& nodes) const {
+        Bounds box;
+        const auto corner = [](int i) { return Vec3(i & 1, (i >> 1) & 1, (i >> 2) & 1); };
+        for (std::size_t i = 0; i < scene.nodes.size(); ++i) {
+            const std::optional<VolumeSurface> volume = volumeOf(i, nodes[i]);
+            const DrawnMesh* mesh = meshOf(i);
+            for (int k = 0; k < 8; ++k) {
+                if (volume) box.add(Vec3(volumeBox(*volume) * Vec4(corner(k), 1)));
+                if (mesh) box.add(Vec3(nodes[i] * Vec4(glm::mix(mesh->box.low, mesh->box.high, corner(k)), 1)));
+            }
+        }
+        return box;
+    }
+
     /// Draws the maps of lights that moved, or whose casters did.
     void updateShadows(const Camera& camera, double aspect, const std::vector<glm::dmat4>& nodes,
                        const std::vector<Light>& lights) {
@@ -268,22 +296,11 @@ struct SceneRenderer::State {
         ShadowScene drawn;
         drawn.camera = &camera;
         drawn.aspect = aspect;
+        drawn.bounds = sceneBox(nodes);
         for (std::size_t i = 0; i < scene.nodes.size(); ++i) {
-            if (const std::optional<VolumeSurface> volume = volumeOf(i, nodes[i])) {
-                for (int corner = 0; corner < 8; ++corner)
-                    drawn.bounds.add(
-                        Vec3(volumeBox(*volume) * Vec4(corner & 1, (corner >> 1) & 1, (corner >> 2) & 1, 1)));
-                if (scene.nodes[i].castsShadow) drawn.volumes.push_back(*volume);
-            }
-            const DrawnMesh* mesh = meshOf(i);
-            if (!mesh) continue;
-            for (int corner = 0; corner < 8; ++corner) {
-                const Vec3 p(corner & 1 ? mesh->box.high.x : mesh->box.low.x,
-                             corner & 2 ? mesh->box.high.y : mesh->box.low.y,
-                             corner & 4 ? mesh->box.high.z : mesh->box.low.z);
-                drawn.bounds.add(Vec3(nodes[i] * Vec4(p, 1)));
-            }
-            if (scene.nodes[i].castsShadow) drawn.casters.push_back({&*mesh->gpu, nodes[i]});
+            if (!scene.nodes[i].castsShadow) continue;
+            if (const std::optional<VolumeSurface> volume = volumeOf(i, nodes[i])) drawn.volumes.push_back(*volume);
+            if (const DrawnMesh* mesh = meshOf(i)) drawn.casters.push_back({&*mesh->gpu, nodes[i]});
         }
         if (drawn.bounds.empty()) return;
         for (std::size_t i = 0; i < lights.size(); ++i) {
@@ -340,73 +357,132 @@ struct SceneRenderer::State {
         setLights(program, view);
     }
 
-    /// \param mode  AddLight: on nodes that take lamps, and receive shadows or not as `receivers` says
-    void drawNodes(const RenderTarget& target, const Camera& camera, const SceneSwitches& on,
-                   const std::vector<glm::dmat4>& nodes, const std::vector<Light>& lights,
-                   DrawMode mode = DrawMode::Fill, bool receivers = true) {
-        const glm::dmat4 toView = camera.view();
+    /// What a frame's views have in common.
+    struct Frame {
+        const SceneSwitches& on;
+        const Camera& camera;
+        std::vector<glm::dmat4> nodes;
+        std::vector<Light> lights;
+        std::vector<const ShadowMap*> shadows{};
+        ShaderDefines shadowDefines{}, viewDefines{};
+        /// AddLight: on nodes that take lamps, and receive shadows or not as `receivers` says.
+        DrawMode mode = DrawMode::Fill;
+        bool receivers = true;
+    };
+
+    Frame frameOf(const SceneSwitches& on, const Camera& camera, const std::vector<glm::dmat4>& nodes,
+                  const std::vector<Light>& lights) const {
+        Frame out{on, camera, nodes, lights};
+        out.shadows = shadowsOf(on);
+        out.shadowDefines = shadowDefines(out.shadows, lights);
+        out.viewDefines = viewDefines(scene);
+        return out;
+    }
+
+    /// The nodes with meshes that a view may see. Front to back: what is hidden is rejected before it is shaded.
+    std::vector<Draw> drawsOf(const Frame& frame, const ScheduledView& view, const RenderTarget& target) const {
+        // Rounding may leave the face that the view is seen through in front of itself.
+        const std::size_t own =
+            view.face < 0 ? scene.nodes.size() : schedule.faces[static_cast<std::size_t>(view.face)].node;
         std::vector<Draw> draws;
         for (std::size_t i = 0; i < scene.nodes.size(); ++i) {
             const DrawnMesh* mesh = meshOf(i);
-            if (!mesh) continue;
-            const bool added = takesLamps(scene, materialOf(i), on) && scene.nodes[i].receivesShadow == receivers;
-            if (mode == DrawMode::AddLight && !added) continue;
-            const glm::dmat3 m(nodes[i]);
+            if (!mesh || i == own) continue;
+            const bool added =
+                takesLamps(scene, materialOf(i), frame.on) && scene.nodes[i].receivesShadow == frame.receivers;
+            if (frame.mode == DrawMode::AddLight && !added) continue;
+            const glm::dmat3 m(frame.nodes[i]);
             const double scale =
                 std::sqrt(std::max({glm::dot(m[0], m[0]), glm::dot(m[1], m[1]), glm::dot(m[2], m[2])}));
-            const double depth = -(toView * (nodes[i] * Vec4(mesh->centre, 1))).z;
-            draws.push_back({i, depth - scale * mesh->radius});
+            const Vec3 centre(frame.nodes[i] * Vec4(mesh->centre, 1));
+            if (!maySee(view, target.width(), target.height(), centre, scale * mesh->radius)) continue;
+            draws.push_back({i, nearestDepth(view.view, centre, scale * mesh->radius)});
         }
-        // Front to back: what is hidden is rejected before it is shaded.
         std::stable_sort(draws.begin(), draws.end(),
                          [](const Draw& a, const Draw& b) { return a.nearest < b.nearest; });
-        const std::vector<const ShadowMap*> shadows = shadowsOf(on);
-        const ShaderDefines defines = shadowDefines(shadows, lights);
-        LitView view{camera, lights};
+        return draws;
+    }
+
+    /// What of all light a node gives is its own: of specular faces not all.
+    double ownShare(std::size_t node) const {
+        const std::optional<SceneSpecular>& specular = materialOf(node).specular;
+        return specular ? specular->surface : 1;
+    }
+
+    void drawNodes(const Frame& frame, const ScheduledView& view, const RenderTarget& target) {
+        LitView lit{frame.camera, frame.lights};
         const Program* program = nullptr;
         int material = -1;
-        for (const Draw& draw : draws) {
+        for (const Draw& draw : drawsOf(frame, view, target)) {
             const SceneMaterial& m = materialOf(draw.node);
+            const GpuMesh& mesh = *meshOf(draw.node)->gpu;
+            const double share = ownShare(draw.node);
+            if (share == 0) {
+                drawFace(loader, view, {&mesh, frame.nodes[draw.node]});
+                program = nullptr;
+                continue;
+            }
             const bool shadowed = scene.nodes[draw.node].receivesShadow;
-            SceneProgram wanted = materialProgram(scene, m, traits, on, shadowed ? defines : ShaderDefines());
+            SceneProgram wanted =
+                materialProgram(scene, m, traits, frame.on, shadowed ? frame.shadowDefines : ShaderDefines());
             const auto radiance = nodeRadiance.find(draw.node);
-            const bool brings = on.ambient && radiance != nodeRadiance.end() && wanted.fragment == "scene.frag.glsl";
+            const bool brings =
+                frame.on.ambient && radiance != nodeRadiance.end() && wanted.fragment == "scene.frag.glsl";
             if (brings) wanted.defines.emplace_back("NACRE_VERTEX_RADIANCE", "1");
-            const Program& next = loader.load(wanted.vertex, wanted.fragment, wanted.defines);
+            const Program& next =
+                loader.load(wanted.vertex, wanted.fragment, joined(std::move(wanted.defines), frame.viewDefines));
             const bool own = nodeLights.count(draw.node) != 0;  // its texture is the node's, not the material's
             if (&next != program || material != scene.nodes[draw.node].material || own) {
-                view.ambient = on.ambient ? m.ambient : Rgb(0);
-                view.shadows = shadowed && takesLamps(scene, m, on) ? shadows : std::vector<const ShadowMap*>();
-                bindMaterial(next, draw.node, on, view);
-                setView(next, camera, target);
+                lit.ambient = frame.on.ambient ? m.ambient : Rgb(0);
+                lit.shadows =
+                    shadowed && takesLamps(scene, m, frame.on) ? frame.shadows : std::vector<const ShadowMap*>();
+                bindMaterial(next, draw.node, frame.on, lit);
+                setView(next, view.view, view.light, share);
+                if (m.specular && m.specular->texture) {
+                    faceTextures.at(m.specular->texture).bind(kReliefUnit);  // checkSpecular: there is no relief
+                    next.set("nacre_face_texture", kReliefUnit);
+                }
                 program = &next;
                 material = own ? -1 : scene.nodes[draw.node].material;
             }
-            drawMesh(next, target, *meshOf(draw.node)->gpu, nodes[draw.node], mode,
-                     brings ? &radiance->second : nullptr);
+            drawPlaced(next, mesh, frame.nodes[draw.node], view.view.mirrored, brings ? &radiance->second : nullptr);
         }
     }
 
+    void drawDepths(const Frame& frame, const ScheduledView& view, const RenderTarget& target) {
+        for (const Draw& draw : drawsOf(frame, view, target))
+            drawFace(loader, view, {&*meshOf(draw.node)->gpu, frame.nodes[draw.node]});
+    }
+
     /// After the meshes, whose depths hide what is behind them.
-    void drawVolumes(const RenderTarget& target, const Camera& camera, const SceneSwitches& on,
-                     const std::vector<glm::dmat4>& nodes, const std::vector<Light>& lights) {
-        const std::vector<const ShadowMap*> shadows = shadowsOf(on);
-        const ShaderDefines defines = shadowDefines(shadows, lights);
+    void drawVolumes(const Frame& frame, const ScheduledView& view) {
+        const SceneSwitches on = volumeSwitches(frame.on);
         for (std::size_t i = 0; i < scene.nodes.size(); ++i) {
-            const std::optional<VolumeSurface> surface = volumeOf(i, nodes[i]);
+            const std::optional<VolumeSurface> surface = volumeOf(i, frame.nodes[i]);
             if (!surface) continue;
             const SceneMaterial& m = materialOf(i);
             const bool shadowed = scene.nodes[i].receivesShadow && takesLamps(scene, m, on);
-            const SceneProgram wanted =
-                volumeProgram(scene, scene.volumes[static_cast<std::size_t>(scene.nodes[i].volume)], m, traits, on,
-                              shadowed ? defines : ShaderDefines());
-            const Program& program = loader.load(wanted.vertex, wanted.fragment, wanted.defines);
-            LitView view{camera, lights};
-            view.ambient = on.ambient ? m.ambient : Rgb(0);
-            if (shadowed) view.shadows = shadows;
-            bindMaterial(program, i, on, view);
-            drawVolume(program, target, *surface, camera);
+            SceneProgram wanted = volumeProgram(scene, scene.volumes[static_cast<std::size_t>(scene.nodes[i].volume)],
+                                                m, traits, on, shadowed ? frame.shadowDefines : ShaderDefines());
+            const Program& program =
+                loader.load(wanted.vertex, wanted.fragment, joined(std::move(wanted.defines), frame.viewDefines));
+            LitView lit{frame.camera, frame.lights};
+            lit.ambient = on.ambient ? m.ambient : Rgb(0);
+            if (shadowed) lit.shadows = frame.shadows;
+            bindMaterial(program, i, on, lit);
+            drawVolume(program, *surface, view.view, view.light);
         }
+    }
+
+    void drawBackground(const Frame& frame, const ScheduledView& view) {
+        if (scene.sky.asset >= 0)
+            return drawSky(loader, view.view, {&asset(scene.sky.asset).environment.value(), scene.sky.lod, Rgb(1)},
+                           turnedByY(-scene.sky.rotationY), view.light, frame.viewDefines);
+        const Program& program = loader.load("sky.vert.glsl", "background.frag.glsl", frame.viewDefines);
+        setView(program, view.view, view.light);
+        program.set("nacre_background", glm::vec3(scene.sky.color));
+        program.use();
+        drawFullscreen(VertexArray());
     }
 
     /// A lamp with a SceneShadow, as points that cast hard shadows.
@@ -446,7 +522,12 @@ struct SceneRenderer::State {
         std::vector<Light> alone = f.lights;
         for (Light& other : alone) other.color = Rgb(0);
         alone[light] = value;
-        drawNodes(f.target, f.camera, f.on, f.nodes, alone, DrawMode::AddLight, receivers);
+        Frame frame = frameOf(f.on, f.camera, f.nodes, alone);
+        frame.mode = DrawMode::AddLight;
+        frame.receivers = receivers;
+        setAddLight();
+        drawNodes(frame, schedule.views.front(), f.target);
+        setDrawState(f.target);
     }
 
     /// Each point's light, added where the count of its volumes is zero (MPR section 7.2).
@@ -500,7 +581,7 @@ struct SceneRenderer::State {
         for (const ShadowedLamp& lamp : lamps) unshadowed[lamp.light].color = Rgb(0);
         SceneSwitches rest = on;
         rest.lamps = lamps.size() < lights.size();
-        clock("surfaces", [&] { drawNodes(target, camera, rest, nodes, unshadowed); });
+        clock("surfaces", [&] { drawNodes(frameOf(rest, camera, nodes, unshadowed), schedule.views.front(), target); });
         clock("light", [&] {
             LightPasses frame{target, camera, on, nodes, lights, {}};
             frame.on.ambient = frame.on.surrounding = false;
@@ -514,26 +595,50 @@ struct SceneRenderer::State {
         });
     }
 
-    void render(const RenderTarget& target, const Camera& camera, double time, const SceneSwitches& on) {
-        const std::vector<glm::dmat4> nodes = nodeTransforms(scene, time);
-        const std::vector<Light> lights = lightsInWorld(scene, nodes);
-        checkLights(lights, kMaxLights);
-        clock.start(timing);
-        clock("relief light", [&] { updateNodeLights(on, nodes, lights); });
-        const double aspect = static_cast<double>(target.width()) / target.height();
-        if (mapsShadows(on) && on.lamps) clock("shadow maps", [&] { updateShadows(camera, aspect, nodes, lights); });
-        target.clear(glm::vec4(glm::vec3(on.sky ? scene.sky.color : Rgb(0)), 1));
-        if (on.shadows && on.lamps && on.shadowMethod == ShadowMethod::Volumes &&
-            on.reflectance != SceneReflectance::FastPhong)
-            drawWithShadowVolumes(target, camera, on, nodes, lights);
+    void drawPart(const Frame& frame, const ScheduledView& view, SurfacePart part, const RenderTarget& target) {
+        if (part == SurfacePart::Background) {
+            // Else: what the target, or the face, was cleared to.
+            const bool there = scene.sky.asset >= 0 || scene.sky.color != Rgb(0) || view.light.fogDistance > 0;
+            if (frame.on.sky && there && (view.level > 0 || scene.sky.asset >= 0))
+                clock("sky", [&] { drawBackground(frame, view); });
+            return;
+        }
+        const bool byVolumes = frame.on.shadows && frame.on.lamps && frame.on.shadowMethod == ShadowMethod::Volumes &&
+                               frame.on.reflectance != SceneReflectance::FastPhong;
+        if (byVolumes)
+            drawWithShadowVolumes(target, frame.camera, frame.on, frame.nodes, frame.lights);
         else
-            clock("surfaces", [&] { drawNodes(target, camera, on, nodes, lights); });
-        if (!volumes.empty()) clock("volumes", [&] { drawVolumes(target, camera, volumeSwitches(on), nodes, lights); });
-        if (scene.sky.asset < 0 || !on.sky) return;
-        clock("sky", [&] {
-            renderSky(loader, target, camera, {&asset(scene.sky.asset).environment.value(), scene.sky.lod, Rgb(1)},
-                      turnedByY(-scene.sky.rotationY));
-        });
+            clock("surfaces", [&] {
+                part == SurfacePart::Depth ? drawDepths(frame, view, target) : drawNodes(frame, view, target);
+            });
+        if (!volumes.empty()) clock("volumes", [&] { drawVolumes(frame, view); });
+    }
+
+    void render(const RenderTarget& target, const Camera& camera, double time, const SceneSwitches& on) {
+        Frame frame{on, camera, nodeTransforms(scene, time), {}};
+        frame.lights = lightsInWorld(scene, frame.nodes);
+        checkLights(frame.lights, kMaxLights);
+        clock.start(timing);
+        clock("relief light", [&] { updateNodeLights(on, frame.nodes, frame.lights); });
+        const double aspect = static_cast<double>(target.width()) / target.height();
+        if (mapsShadows(on) && on.lamps)
+            clock("shadow maps", [&] { updateShadows(camera, aspect, frame.nodes, frame.lights); });
+        frame.shadows = shadowsOf(on);
+        frame.shadowDefines = shadowDefines(frame.shadows, frame.lights);
+        frame.viewDefines = viewDefines(scene);
+        const Bounds box = sceneBox(frame.nodes);
+        schedule = makeSchedule(specularFaces(scene, frame.nodes),
+                                {camera, target.width(), target.height(), box.low, box.high}, on.specular);
+        if (on.shadowMethod == ShadowMethod::Volumes && !schedule.faces.empty())  // views have maps alone
+            throw Error(fmt::format("shadow volumes: expected no specular faces, found node '{}'",
+                                    scene.nodes[schedule.faces.front().node].name));
+        std::vector<FaceMesh> faces;
+        for (const SpecularFace& face : schedule.faces)
+            faces.push_back({&*meshOf(face.node)->gpu, frame.nodes[face.node],
+                             face.specular.texture ? &faceTextures.at(face.specular.texture) : nullptr});
+        target.clear(glm::vec4(glm::vec3(on.sky ? scene.sky.color : Rgb(0)), 1));
+        runPasses(loader, schedule, target, faces,
+                  [&](const ScheduledView& view, SurfacePart part) { drawPart(frame, view, part, target); });
     }
 
     /// Takes the value, unless the scene is unsound with it.
@@ -600,6 +705,7 @@ struct SceneRenderer::State {
         volumes = std::move(nextVolumes);
         nodeLights.clear();
         lightShadows.clear();
+        faceTextures.clear();
         shadowVolumes.reset();
         nodeRadiance.clear();
         prepareModels();
@@ -636,6 +742,7 @@ ShadowVolumeCounts SceneRenderer::shadowVolumes() const {
 
 void SceneRenderer::setTiming(bool on) { state_->timing = on; }
 const std::vector<PassTime>& SceneRenderer::passes() const { return state_->clock.times; }
+const PassSchedule& SceneRenderer::schedule() const { return state_->schedule; }
 
 void SceneRenderer::setLight(std::size_t light, const SceneLight& value) {
     state_->edit(state_->scene.lights.at(light), value);

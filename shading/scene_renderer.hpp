@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/scene_description.hpp"
+#include "shading/multipass/pass_schedule.hpp"
 #include "shading/multipass/scene_shadow_volumes.hpp"
 #include "shading/program.hpp"
 #include "shading/render_target.hpp"
@@ -51,6 +52,8 @@ public:
     /// With timing on, passes() tells what the parts of the last frame took; it costs a glFinish a part.
     void setTiming(bool on);
     const std::vector<PassTime>& passes() const;
+    /// What the last frame was drawn by: one pass in scenes without specular faces.
+    const PassSchedule& schedule() const;
 
     /// Edits. Each checks the new scene as the constructor does; on failure nothing has changed.
     void setLight(std::size_t light, const SceneLight& value);

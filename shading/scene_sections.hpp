@@ -15,7 +15,8 @@ struct SceneNames {
 /// All throw nacre::Error as JsonField does. Paths count from `folder`. Keys are described in scene.schema.json.
 SceneMesh sceneMesh(const std::string& name, const JsonField& field, const std::filesystem::path& folder);
 SceneVolume sceneVolume(const std::string& name, const JsonField& field, const std::filesystem::path& folder);
-SceneMaterial sceneMaterial(const std::string& name, const JsonField& field, const SceneNames& names);
+SceneMaterial sceneMaterial(const std::string& name, const JsonField& field, const SceneNames& names,
+                            const std::filesystem::path& folder);
 SceneLight sceneLight(const std::string& name, const JsonField& field, const SceneNames& names);
 /// A node but for what names other nodes: "children", "import".
 SceneNode sceneNode(const std::string& name, const JsonField& field, const SceneNames& names);

@@ -39,21 +39,29 @@ void render(ProgramLoader& loader, const RenderTarget& target, const VolumeSurfa
 
 }  // namespace
 
-void drawVolume(const Program& program, const RenderTarget& target, const VolumeSurface& surface,
-                const Camera& camera) {
+void drawVolume(const Program& program, const VolumeSurface& surface, const SpecularView& view,
+                const ViewLight& light) {
     checkVolume(surface);
     bindVolume(program, surface, kVolumeUnit);
-    setView(program, camera, target);
-    const double aspect = static_cast<double>(target.width()) / target.height();
+    setView(program, view, light);
     const bool march = surface.method == VolumeMethod::March;
-    if (march) program.set("nacre_clip_to_world", glm::mat4(glm::inverse(camera.projection(aspect) * camera.view())));
-    setState(target);
+    if (march) program.set("nacre_clip_to_world", glm::mat4(glm::inverse(view.toClip)));
     program.use();
-    if (march)
+    if (march) {
         drawFullscreen(VertexArray());
-    else
-        drawSlices(volumeSlices(volumeBox(surface), glm::normalize(camera.target - camera.eye), volumeStep(surface)));
+    } else {
+        // Along which depths grow: the camera's axis, or its image.
+        const Vec3 deeper(view.toClip[0][3], view.toClip[1][3], view.toClip[2][3]);
+        const Vec3 axis = view.eye.w == 0 ? -Vec3(view.eye) : glm::normalize(deeper);
+        drawSlices(volumeSlices(volumeBox(surface), axis, volumeStep(surface)));
+    }
     checkGl("drawing a volume");
+}
+
+void drawVolume(const Program& program, const RenderTarget& target, const VolumeSurface& surface,
+                const Camera& camera) {
+    setState(target);
+    drawVolume(program, surface, viewOf(camera, static_cast<double>(target.width()) / target.height()));
 }
 
 void renderVolume(ProgramLoader& loader, const RenderTarget& target, const VolumeSurface& surface, const LitView& view,

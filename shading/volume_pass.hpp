@@ -3,6 +3,7 @@
 #pragma once
 
 #include "shading/lit_pass.hpp"
+#include "shading/multipass/specular_view.hpp"
 #include "shading/volume_surface.hpp"
 
 namespace nacre {
@@ -20,5 +21,8 @@ void renderVolume(ProgramLoader& loader, const RenderTarget& target, const Volum
 /// The draw alone, by a program of volume.vert.glsl that holds everything else but the view: for scenes. The volume is
 /// bound where a mesh's relief is else. State as above.
 void drawVolume(const Program& program, const RenderTarget& target, const VolumeSurface& surface, const Camera& camera);
+/// From a virtual viewpoint, in the state that is.
+void drawVolume(const Program& program, const VolumeSurface& surface, const SpecularView& view,
+                const ViewLight& light = {});
 
 }  // namespace nacre

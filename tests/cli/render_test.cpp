@@ -102,6 +102,38 @@ TEST(CommandRender, DrawsAndComparesWithTheReference) {
     EXPECT_EQ(text.err, "");
 }
 
+TEST(CommandRender, MirrorsAndPanesAreDrawnTracedAndListed) {
+    const Scratch scratch;
+    writeFile(scratch / "room.json", R"({
+        "nacre_scene": 1,
+        "meshes": {"square": {"quad": {"size": 2}}, "ball": {"sphere": {"radius": 0.4}}},
+        "materials": {"matt": {"model": "lambert:kd=0.7/0.5/0.3", "ambient": 0.05}, "mirror": {"specular": {"reflection": 0.9}},
+                      "pane": {"specular": {"ior": 1.5}}},
+        "nodes": {"floor": {"mesh": "square", "material": "matt", "translation": [0, -1, 0], "axis": [1, 0, 0], "angleDeg": -90, "scale": 2},
+                  "looking-glass": {"mesh": "square", "material": "mirror", "translation": [0, 0.2, -1.5], "axis": [0, 1, 0], "angleDeg": 15},
+                  "pane": {"mesh": "square", "material": "pane", "translation": [0.8, -0.3, 0.5], "scale": 0.6, "castsShadow": false},
+                  "ball": {"mesh": "ball", "material": "matt", "translation": [0.2, -0.5, -0.2]}},
+        "lights": {"lamp": {"type": "spot", "position": [1, 3, 2], "target": [0, -1, 0], "intensity": 40, "shadow": {"size": 512}}},
+        "sky": {"color": 0.3},
+        "camera": {"eye": [0.3, 0.4, 5], "target": [0, -0.2, 0], "fovYDeg": 40}
+    })");
+    const std::string scene = scratch / "room.json";
+    const Outcome list = nacre({"render", scene, "--passes", "--depth", "2"});
+    ASSERT_EQ(list.code, 0) << list.err;
+    EXPECT_THAT(list.out, AllOf(HasSubstr("camera > looking-glass reflects > pane refracts"), HasSubstr("2 levels")));
+    const Outcome listed = nacre({"render", scene, "--passes", "--json"});
+    ASSERT_EQ(listed.code, 0) << listed.err;
+    EXPECT_GT(json::parse(listed.out)["passes"].size(), 10u);
+    const Outcome run = nacre({"render", scene, "-o", scratch / "r.png", "--size", "96x64", "--reference", "--json"});
+    ASSERT_EQ(run.code, 0) << run.err;
+    EXPECT_GT(json::parse(run.out)["errors"]["all"]["psnr"], 32) << "outlines, shadows' edges, one angle a pane";
+    EXPECT_THAT(nacre({"info", scene}).out, HasSubstr("specular mirror"));
+    const Outcome deep = nacre({"render", scene, "-o", scratch / "d.png", "--depth", "500"});
+    EXPECT_EQ(deep.code, 1);
+    EXPECT_THAT(deep.err, HasSubstr("at most 127 with 8 bits of stencil"));
+    EXPECT_FALSE(std::filesystem::exists(scratch / "d.png"));
+}
+
 TEST(CommandRender, ShadowsByVolumes) {
     const Scratch scratch;
     const Outcome run = nacre({"render", sceneFile(scratch), "-o", scratch / "v.png", "--size", "96x64", "--shadows",

@@ -3,6 +3,7 @@
 #include <regex>
 #include <set>
 
+#include "shading/image_output.hpp"
 #include "tests/shading/scene_files.hpp"
 #include "tests/shading/volume_fixture.hpp"
 
@@ -33,7 +34,9 @@ constexpr const char* kEverything = R"({
       "surrounding": {"reflection": {"asset": "wall", "lod": 1, "color": 0.5}, "transmission": {"asset": "wall"},
                       "diffuse": {"asset": "wall"}, "ior": 1.3, "table": "wall", "f0": 0.04, "perceptualRoughness": 0.3,
                       "multipleScattering": true, "combine": "blend"}},
-    "b": {"model": "lambert"}
+    "b": {"model": "lambert"},
+    "c": {"specular": {"ior": 1.5, "reflection": 1, "transmission": [1, 0.9, 1], "partial": false, "surface": 0.1,
+      "texture": "dot.exr", "fog": 0.5, "fogDistance": 2, "spread": 0.1}}
   },
   "lights": {
     "sun": {"type": "directional", "color": [1, 1, 1], "intensity": 2, "direction": [0, -1, 0],
@@ -139,6 +142,7 @@ class SceneSchema : public tests::SceneFiles {
 protected:
     void SetUp() override {
         for (const char* name : {"gold.exr", "wall.exr", "wall.png"}) write(name, "");
+        writeExr(Image(2, 2, 3), scratch_ / "dot.exr");
         write("cube.den", test::text(test::den(2, 2, 2)));
         write("t.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 0 1\nf 1/1 2/2 3/3\n");
     }
@@ -194,7 +198,7 @@ TEST_F(SceneSchema, SchemaAndReaderKnowTheSameKeys) {
         EXPECT_TRUE(schema_.accepts(schema_.root(), scene));
         visit(scene, schema_.root(), json::json_pointer());
     }
-    EXPECT_EQ(objects_.size(), 21u) << "kinds of objects";
+    EXPECT_EQ(objects_.size(), 22u) << "kinds of objects";
     for (const auto& [schema, keys] : objects_) {
         EXPECT_EQ(keys.inSchema, keys.inReader) << schema->dump();
         EXPECT_EQ(keys.inSchema, keys.used) << "kEverything and kOtherwise must use every key of " << schema->dump();

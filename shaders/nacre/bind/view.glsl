@@ -5,4 +5,27 @@
 uniform mat4 nacre_world_to_clip;
 uniform vec4 nacre_eye;  // w = 1: position of the eye; w = 0: unit direction towards an orthographic viewer
 
+// A virtual viewpoint (shading/multipass/). C++: setView (shading/multipass/view_state.hpp).
+#ifdef NACRE_VIEW
+uniform vec4 nacre_view_clip;    // a plane: what lies in front of it is seen
+uniform vec3 nacre_view_factor;  // of all that is drawn: what the path to the eye keeps
+uniform float nacre_view_share;  // of a surface's light: what of it is not specular
+uniform vec4 nacre_view_fog;     // the radiance that all fades to, and 1 / distance from the plane where it has; 0: none
+
+// What fog leaves of the light from a place.
+float nacre_view_clear(vec3 position) {
+    return 1.0 - clamp(dot(nacre_view_clip, vec4(position, 1.0)) * nacre_view_fog.w, 0.0, 1.0);
+}
+
+// Light from a place, as it reaches the eye.
+vec3 nacre_view_seen(vec3 light, vec3 position) {
+    return nacre_view_factor * mix(nacre_view_fog.rgb, nacre_view_share * light, nacre_view_clear(position));
+}
+
+// The same from infinitely far.
+vec3 nacre_view_background(vec3 light) {
+    return nacre_view_factor * (nacre_view_fog.w > 0.0 ? nacre_view_fog.rgb : light);
+}
+#endif
+
 #endif

@@ -1,0 +1,113 @@
+#include "reference/specular_path.hpp"
+
+#include <limits>
+
+namespace nacre {
+namespace {
+
+/// Reflectance of unpolarised light from Fresnel's amplitudes, given both cosines; eta: beyond over before.
+double reflectance(double before, double beyond, double eta) {
+    const double s = (before - eta * beyond) / (before + eta * beyond);
+    const double p = (eta * before - beyond) / (eta * before + beyond);
+    return 0.5 * (s * s + p * p);
+}
+
+/// Fog of the face that a ray left, until where it goes.
+struct Fog {
+    Rgb radiance{0};
+    double perLength = 0;  ///< of the ray
+};
+
+class Follower {
+public:
+    Follower(const SceneDescription& scene, const SceneRays& rays, const SpecularPathOptions& options,
+             const std::function<void(const PathEnd&)>& end)
+        : scene_(scene), rays_(rays), options_(options), end_(end) {}
+
+    Rgb fogLight{0};
+
+    void follow(const Ray& ray, Rgb share, int left, const Fog& fog, bool split) {
+        const Vec3 along = glm::normalize(ray.direction);
+        const std::optional<SceneRays::Hit> hit = rays_.firstHit(ray, -along);
+        const double length = hit ? glm::length(hit->s.position - ray.origin) : std::numeric_limits<double>::infinity();
+        if (fog.perLength > 0) {
+            const double faded = std::min(1.0, length * fog.perLength);
+            fogLight += share * faded * fog.radiance;
+            share *= 1 - faded;
+        }
+        if (!hit) return end_({{}, along, share});
+        const auto material = static_cast<std::size_t>(scene_.nodes[hit->node].material);
+        const std::optional<SceneSpecular>& specular = scene_.materials[material].specular;
+        if (!specular) return end_({hit, along, share});
+        SceneSpecular here = *specular;
+        Rgb texel(1);
+        if (here.texture) {
+            const glm::vec4 at = sampleBilinear(*here.texture, float(hit->s.uv.x), float(hit->s.uv.y));
+            texel = Rgb(at);
+            here.surface *= at.a;
+        }
+        if (here.surface > 0) end_({hit, along, share * here.surface, texel});
+        if (left == 0) return;
+        const bool spreads = here.spread > 0;
+        const int count = spreads && !split ? options_.spreadRays : 1;
+        for (const SpecularRay& next : specularRays(here, along, hit->plane))
+            for (int i = 0; i < count; ++i) {
+                const Vec3 direction = spreads ? spread(next.direction, hit->plane, here.spread) : next.direction;
+                const double cosine = std::abs(glm::dot(direction, hit->plane));
+                const Fog ahead{here.fog, here.fogDistance > 0 ? cosine / here.fogDistance : 0};
+                follow({hit->s.position, direction, rays_.skip(), std::numeric_limits<float>::max()},
+                       share * next.share / double(count), left - 1, ahead, split || spreads);
+            }
+    }
+
+private:
+    /// Slopes against the normal moved by a Gaussian (Box and Muller's).
+    Vec3 spread(const Vec3& direction, const Vec3& normal, double deviation) const {
+        const Vec3 n = glm::dot(direction, normal) > 0 ? normal : -normal;
+        const Vec3 x = glm::normalize(glm::cross(n, std::abs(n.y) < 0.5 ? Vec3(0, 1, 0) : Vec3(0, 0, 1)));
+        const Vec2 u = options_.next();
+        const double radius = deviation * std::sqrt(-2 * std::log1p(-u.x)), phi = 2 * kPi * u.y;
+        return glm::normalize(direction / glm::dot(direction, n) +
+                              radius * (std::cos(phi) * x + std::sin(phi) * glm::cross(n, x)));
+    }
+
+    const SceneDescription& scene_;
+    const SceneRays& rays_;
+    const SpecularPathOptions& options_;
+    const std::function<void(const PathEnd&)>& end_;
+};
+
+}  // namespace
+
+std::vector<SpecularRay> specularRays(const SceneSpecular& surface, const Vec3& along, const Vec3& normal) {
+    const Vec3 n = glm::dot(along, normal) > 0 ? -normal : normal;
+    const double cosine = std::min(1.0, -glm::dot(along, n)), rest = 1 - surface.surface;
+    const Vec3 mirrored = along + 2 * cosine * n;
+    std::vector<SpecularRay> out;
+    const auto add = [&](const Vec3& direction, const Rgb& share) {
+        if (share != Rgb(0)) out.push_back({glm::normalize(direction), share});
+    };
+    if (!surface.ior) {
+        add(mirrored, rest * surface.reflection);
+        return out;
+    }
+    const double eta = n == normal ? *surface.ior : 1 / *surface.ior;
+    const double sine2 = (1 - cosine * cosine) / (eta * eta);
+    double reflects = 1;
+    if (sine2 < 1) {
+        const double beyond = std::sqrt(1 - sine2);
+        reflects = !surface.partial || eta == 1 ? 0 : reflectance(cosine, beyond, eta);
+        add(along / eta + (cosine / eta - beyond) * n, (1 - reflects) * rest * surface.transmission);
+    }
+    add(mirrored, reflects * rest * surface.reflection);
+    return out;
+}
+
+Rgb followSpecular(const SceneDescription& scene, const SceneRays& rays, const Ray& ray,
+                   const SpecularPathOptions& options, const std::function<void(const PathEnd&)>& end) {
+    Follower follower(scene, rays, options, end);
+    follower.follow(ray, Rgb(1), options.depth, {}, false);
+    return follower.fogLight;
+}
+
+}  // namespace nacre

@@ -1,0 +1,13 @@
+// A background of one colour behind a virtual viewpoint. Drawn by sky.vert.glsl.
+#include "nacre/bind/background.glsl"
+#include "nacre/bind/view.glsl"
+
+out vec4 color;
+
+void main() {
+    vec3 sum = nacre_background;
+#ifdef NACRE_VIEW
+    sum = nacre_view_background(sum);
+#endif
+    color = vec4(sum, 1.0);
+}
