@@ -457,18 +457,20 @@ struct SceneRenderer::State {
     /// After the meshes, whose depths hide what is behind them.
     void drawVolumes(const Frame& frame, const ScheduledView& view) {
         const SceneSwitches on = volumeSwitches(frame.on);
+        const std::vector<const ShadowMap*> shadows = shadowsOf(on);
+        const ShaderDefines defines = shadowDefines(shadows, frame.lights);
         for (std::size_t i = 0; i < scene.nodes.size(); ++i) {
             const std::optional<VolumeSurface> surface = volumeOf(i, frame.nodes[i]);
             if (!surface) continue;
             const SceneMaterial& m = materialOf(i);
             const bool shadowed = scene.nodes[i].receivesShadow && takesLamps(scene, m, on);
             SceneProgram wanted = volumeProgram(scene, scene.volumes[static_cast<std::size_t>(scene.nodes[i].volume)],
-                                                m, traits, on, shadowed ? frame.shadowDefines : ShaderDefines());
+                                                m, traits, on, shadowed ? defines : ShaderDefines());
             const Program& program =
                 loader.load(wanted.vertex, wanted.fragment, joined(std::move(wanted.defines), frame.viewDefines));
             LitView lit{frame.camera, frame.lights};
             lit.ambient = on.ambient ? m.ambient : Rgb(0);
-            if (shadowed) lit.shadows = frame.shadows;
+            if (shadowed) lit.shadows = shadows;
             bindMaterial(program, i, on, lit);
             drawVolume(program, *surface, view.view, view.light);
         }
