@@ -82,7 +82,7 @@ TEST(TransferSession, PlaysTurnsAndSteps) {
 
 TEST(TransferSession, LiveComputesWhatFacesTheViewerOnce) {
     const Context context;
-    TransferSession session({"cloth", true});
+    TransferSession session({"chess", true});
     session.playing = false;
     session.resize(64, 48);
     session.draw();
