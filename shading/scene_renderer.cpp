@@ -617,17 +617,14 @@ struct SceneRenderer::State {
     }
 
     void render(const RenderTarget& target, const Camera& camera, double time, const SceneSwitches& on) {
-        Frame frame{on, camera, nodeTransforms(scene, time), {}};
-        frame.lights = lightsInWorld(scene, frame.nodes);
-        checkLights(frame.lights, kMaxLights);
+        const std::vector<glm::dmat4> nodes = nodeTransforms(scene, time);
+        const std::vector<Light> lights = lightsInWorld(scene, nodes);
+        checkLights(lights, kMaxLights);
         clock.start(timing);
-        clock("relief light", [&] { updateNodeLights(on, frame.nodes, frame.lights); });
+        clock("relief light", [&] { updateNodeLights(on, nodes, lights); });
         const double aspect = static_cast<double>(target.width()) / target.height();
-        if (mapsShadows(on) && on.lamps)
-            clock("shadow maps", [&] { updateShadows(camera, aspect, frame.nodes, frame.lights); });
-        frame.shadows = shadowsOf(on);
-        frame.shadowDefines = shadowDefines(frame.shadows, frame.lights);
-        frame.viewDefines = viewDefines(scene);
+        if (mapsShadows(on) && on.lamps) clock("shadow maps", [&] { updateShadows(camera, aspect, nodes, lights); });
+        const Frame frame = frameOf(on, camera, nodes, lights);
         const Bounds box = sceneBox(frame.nodes);
         schedule = makeSchedule(specularFaces(scene, frame.nodes),
                                 {camera, target.width(), target.height(), box.low, box.high}, on.specular);
