@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "core/error.hpp"
+#include "shading/multipass/rough_face.hpp"
 
 namespace nacre {
 namespace {
@@ -181,7 +182,7 @@ private:
         };
         if (!s.ior) {
             reflects(false);
-            return sheared(view, f, std::move(out));
+            return sheared(view, face, window, std::move(out));
         }
         const double eta = sideOf(from, f.plane) > 0 ? *s.ior : 1 / *s.ior;
         const bool total = !refractedEye(from, f.plane, f.centre(), eta, options_.eye);
@@ -193,24 +194,34 @@ private:
             out.push_back({Bounce::Refracted, transmission, s.partial && eta != 1, refracted(from, f.plane, *eye),
                            at(view).shear});
         if (s.partial ? eta != 1 : total) reflects(s.partial);
-        return sheared(view, f, std::move(out));
+        return sheared(view, face, window, std::move(out));
     }
 
     /// Frosted and glossy faces: many views for one; but one for one where the path has been split already.
-    std::vector<Branch> sheared(int view, const SpecularFace& face, std::vector<Branch> branches) {
-        if (face.specular.spread == 0) return branches;
+    std::vector<Branch> sheared(int view, int number, const std::vector<Vec2>& window, std::vector<Branch> branches) {
+        const SpecularFace& face = faceAt(number);
+        if (!face.specular.scatters()) return branches;
         const int before = at(view).shear, count = before < 0 ? options_.shears : 1;
+        const int side = sideOf(at(view).view, face.plane);
+        const Vec3 towards = towardsEye(at(view).view, incidentPoint(view, number, window));
         std::vector<Branch> out;
         for (const Branch& branch : branches)
             for (int i = 0; i < count; ++i) {
                 // A second face takes its samples in another order.
                 const int sample = before < 0 ? i : (before * 7 + 3) % options_.shears;
-                const Vec2 slope = face.specular.spread * gaussian(sample, options_.sampling);
+                const Vec2 facet = gaussian(sample, options_.sampling);
+                FacetShear shear{face.specular.spread * facet, 1};
+                if (face.specular.roughness > 0) {
+                    std::optional<double> eta;
+                    if (branch.bounce == Bounce::Refracted)
+                        eta = side > 0 ? *face.specular.ior : 1 / *face.specular.ior;
+                    shear = facetShear(towards, face.plane, eta, face.specular.roughness, facet);
+                    if (shear.weight == 0) continue;
+                }
                 Branch next = branch;
-                next.factor /= double(count);
+                next.factor *= shear.weight / double(count);
                 next.shear = sample;
-                const int side = sideOf(at(view).view, face.plane);
-                next.view = seenFrom(at(view).view, face.plane, shearedEye(branch.view.eye, face.plane, slope),
+                next.view = seenFrom(at(view).view, face.plane, shearedEye(branch.view.eye, face.plane, shear.slope),
                                      branch.bounce == Bounce::Reflected ? side : -side, branch.view.mirrored);
                 out.push_back(std::move(next));
             }
