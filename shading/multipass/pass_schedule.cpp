@@ -42,6 +42,8 @@ Vec2 gaussian(int i, ShearSampling sampling) {
     return radius * Vec2(std::cos(2 * kPi * u.y), std::sin(2 * kPi * u.y));
 }
 
+int stepOf(int face, Bounce bounce) { return 2 * face + (bounce == Bounce::Refracted ? 1 : 0); }
+
 class Scheduler {
 public:
     Scheduler(PassSchedule& out, const ScheduleInput& input, const SpecularOptions& options)
@@ -83,7 +85,8 @@ private:
             ++out_.unseen;
             return;
         }
-        const std::vector<Branch> branches = branchesOf(view, face, window);
+        std::vector<Branch> branches = branchesOf(view, face, window);
+        dropHidden(pathOf(out_, view), face, branches);
         if (branches.empty()) return;
         const PixelRect scissor = boxOf(window);
         const int level = at(view).level;
@@ -117,6 +120,18 @@ private:
             adds = true;
         }
         add(PassKind::Unmask, view, face, level + 1, scissor);
+    }
+
+    void dropHidden(std::vector<int> path, int face, std::vector<Branch>& branches) const {
+        if (options_.hidden.empty()) return;
+        path.push_back(0);
+        branches.erase(std::remove_if(branches.begin(), branches.end(),
+                                      [&](const Branch& branch) {
+                                          path.back() = stepOf(face, branch.bounce);
+                                          return std::find(options_.hidden.begin(), options_.hidden.end(), path) !=
+                                                 options_.hidden.end();
+                                      }),
+                       branches.end());
     }
 
     /// Where the face is seen, hidden parts included.
@@ -193,7 +208,7 @@ private:
         if (refracts && transmission != Rgb(0))
             out.push_back({Bounce::Refracted, transmission, s.partial && eta != 1, refracted(from, f.plane, *eye),
                            at(view).shear});
-        if (s.partial ? eta != 1 : total) reflects(s.partial);
+        if (s.partial ? eta != 1 && (options_.partial || total) : total) reflects(s.partial);
         return sheared(view, face, window, std::move(out));
     }
 
@@ -260,14 +275,6 @@ std::string nameOf(const PassSchedule& schedule, const std::vector<std::string>&
     return node < names.size() && !names[node].empty() ? names[node] : fmt::format("node {}", node);
 }
 
-/// "camera > mirror reflects > pane refracts"
-std::string pathText(const PassSchedule& schedule, const std::vector<std::string>& names, int view) {
-    const ScheduledView& v = schedule.views[static_cast<std::size_t>(view)];
-    if (v.parent < 0) return "camera";
-    return pathText(schedule, names, v.parent) + " > " + nameOf(schedule, names, v.face) +
-           (v.bounce == Bounce::Reflected ? " reflects" : " refracts");
-}
-
 std::string drawnText(const PassSchedule& schedule, const Pass& pass) {
     const ScheduledView& v = schedule.views[static_cast<std::size_t>(pass.view)];
     if (pass.kind == PassKind::Surfaces)
@@ -319,6 +326,22 @@ double nearestDepth(const SpecularView& view, const Vec3& centre, double radius)
     return depthOf(view, centre) - radius * glm::length(slope);
 }
 
+std::vector<int> pathOf(const PassSchedule& schedule, int view) {
+    const ScheduledView& v = schedule.views[static_cast<std::size_t>(view)];
+    if (v.parent < 0) return {};
+    std::vector<int> path = pathOf(schedule, v.parent);
+    path.push_back(stepOf(v.face, v.bounce));
+    return path;
+}
+
+std::string pathText(const PassSchedule& schedule, const std::vector<std::string>& names,
+                     const std::vector<int>& path) {
+    std::string out = "camera";
+    for (const int step : path)
+        out += " > " + nameOf(schedule, names, step / 2) + (step % 2 == 0 ? " reflects" : " refracts");
+    return out;
+}
+
 std::string passListText(const PassSchedule& schedule, const std::vector<std::string>& names) {
     std::string out = fmt::format("{} passes, {} views, {} levels; {} views left out, in which nothing is seen\n",
                                   schedule.passes.size(), schedule.views.size(), schedule.deepest, schedule.unseen);
@@ -328,7 +351,7 @@ std::string passListText(const PassSchedule& schedule, const std::vector<std::st
         const std::string face = pass.face < 0 ? "" : nameOf(schedule, names, pass.face) + ": ";
         out += fmt::format("{:>5}  {:<9} {:<12} {:<18} {:<34} {}\n", i, toString(pass.kind),
                            fmt::format("= {}", pass.stencil), rectText(pass.scissor), face + drawnText(schedule, pass),
-                           pathText(schedule, names, pass.view));
+                           pathText(schedule, names, pathOf(schedule, pass.view)));
     }
     return out;
 }
