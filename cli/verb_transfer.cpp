@@ -293,7 +293,7 @@ std::vector<Option> options(const std::shared_ptr<Settings>& s) {
         {"--rings", "R", "The mesh itself blocks within so many rings of triangles, 1 or 2 (default 1; with --lut 2)",
          integerInto([s](long long v) { s->rings = static_cast<int>(v); }, 1, 2)},
         {"--coarse", "N",
-         "Triangles of the coarsest level of detail, about (default 150); 0: the mesh itself everywhere",
+         "Triangles of the coarsest level of detail, about (default 300); 0: the mesh itself everywhere",
          integerInto([s](long long v) { s->plan.options.coarse = static_cast<std::size_t>(v); }, 0, 1 << 30)},
         {"--lod-angle", "RAD",
          "A level is used where it is off by less, seen from the vertex (default 0.25: 1 to 2 % error; 0.6: about 3 %)",

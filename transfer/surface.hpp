@@ -24,6 +24,9 @@ WeldedMesh weldMesh(const AnimatedMesh& animation, const std::string& name);
 /// One frame's positions by the welded numbers.
 std::vector<glm::vec3> weldedPositions(const WeldedMesh& mesh, std::span<const glm::vec3> frame);
 
+/// The same of up to five frames spread over the motion, those that are finite: what SelfTransfer takes as poses.
+std::vector<std::vector<glm::vec3>> motionPoses(const WeldedMesh& mesh, const AnimatedMesh& animation);
+
 /// The corners around each vertex: corner 3 t + c is triangle t's c-th. Those of v are order[first[v]] … order[first[v
 /// + 1]].
 struct CornersOfVertices {
