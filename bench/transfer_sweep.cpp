@@ -68,7 +68,7 @@ double wallSeconds() {
 
 SelfTransferOptions fastTransfer() {
     SelfTransferOptions options;
-    options.lodAngle = 0.6;
+    options.lodAngle = 0.5;
     return options;
 }
 

@@ -46,7 +46,8 @@ TEST(BlockerLevels, PosesTellWhichVerticesAreDark) {
     std::vector<glm::vec3> apart = m.rest;  // the pieces far above each other: nothing is dark
     const std::vector<std::uint32_t> part = connectedParts(m.mesh.triangles, m.rest.size());
     for (std::size_t v = 0; v < apart.size(); ++v) apart[v].y += static_cast<float>(part[v]);
-    const SelfTransfer unaware(m.mesh, apart, {}), aware(m.mesh, apart, {}, std::vector{m.rest});
+    const std::vector<std::vector<glm::vec3>> poses = {m.rest};
+    const SelfTransfer unaware(m.mesh, apart, {}), aware(m.mesh, apart, {}, poses);
     EXPECT_GT(aware.compute(m.rest).listed, unaware.compute(m.rest).listed);
     EXPECT_NE(aware.key(), unaware.key()) << "other groups: sets of blockers of one mean nothing to the other";
 }
