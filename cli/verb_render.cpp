@@ -1,6 +1,7 @@
 // nacre render: a scene drawn without a window, and the same scene traced beside it.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <charconv>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -29,6 +30,7 @@ struct Settings {
     SceneShot shot;
     double white = 0;  ///< 0: of the picture
     int rays = 4;
+    std::optional<int> lightPaths;
     SceneSwitches switches;
     bool reference = false, shares = false, asJson = false, passes = false;
     TransferPictures transfer;  ///< when the scene is a transfer file
@@ -104,6 +106,15 @@ void runTransferFile(const Context& context, const Settings& s) {
     renderTransfer(context, p);
 }
 
+/// Without --light-paths: those that lead past a thick pane, where nothing forbids them.
+SceneSwitches switchesFor(const Settings& s, const SceneDescription& scene) {
+    SceneSwitches out = s.switches;
+    const bool volumes =
+        std::any_of(scene.nodes.begin(), scene.nodes.end(), [](const SceneNode& node) { return node.volume >= 0; });
+    out.specular.lightDepth = s.lightPaths.value_or(volumes ? 0 : 2);
+    return out;
+}
+
 void runRender(const Context& context, const Settings& s) {
     if (s.output.empty() && !s.passes) throw UsageError("--output: expected a name, found none");
     if (isTransferFile(s.scene)) return runTransferFile(context, s);
@@ -119,12 +130,13 @@ void runRender(const Context& context, const Settings& s) {
     SceneDescription scene = readScene(s.scene, reading);
     if (s.passes) {
         endProgress();
-        return putData(passList(scene, s.shot, s.switches.specular, s.asJson));
+        return putData(passList(scene, s.shot, switchesFor(s, scene), s.asJson));
     }
+    const SceneSwitches switches = switchesFor(s, scene);
     const nacre::Context gl(GlApi::Core33);
     ProgramLoader loader;
     SceneRenderer renderer(loader, std::move(scene));
-    renderer.switches = s.switches;
+    renderer.switches = switches;
     json radiosity;
     if (s.shot.interreflection) {
         report(progress, "radiosity", 0);
@@ -143,7 +155,8 @@ void runRender(const Context& context, const Settings& s) {
                  {"programs", renderer.programs().size()},
                  {"renderer", gl.description()}};
     if (s.shot.interreflection) data["radiosity"] = radiosity;
-    if (s.switches.shadowMethod == ShadowMethod::Volumes)
+    if (!renderer.schedule().faces.empty()) data["passes"] = passCountsJson(renderer.schedule());
+    if (s.switches.shadowMethod == ShadowMethod::Volumes || !renderer.schedule().lights.empty())
         data["shadow_volumes"] = volumesJson(renderer.shadowVolumes());
     double white = s.white > 0 ? s.white : pictureWhite(picture);
     std::string text = fmt::format("{}: {} x {} pixels of {} samples, {} programs\n", s.output, s.shot.width,
@@ -191,6 +204,10 @@ std::vector<Option> sceneOptions(const std::shared_ptr<Settings>& s) {
         {"--depth", "N", "Mirrors and panes along a path from the eye (default 4)",
          only(s->sceneFlag, "--depth",
               integerInto([s](long long v) { s->switches.specular.depth = static_cast<int>(v); }, 0, 1000))},
+        {"--light-paths", "N",
+         "Mirrors and panes along a path from a light that has shadows, 0 to 4 (default 2; 0 with voxel volumes)",
+         only(s->sceneFlag, "--light-paths",
+              integerInto([s](long long v) { s->lightPaths = static_cast<int>(v); }, 0, kMostLightBounces))},
         {"--passes", "", "Print the passes that draw a scene, and draw nothing",
          only(s->sceneFlag, "--passes", into(s->passes))},
         {"--rays", "N", "Of a scene's reference: N x N rays a pixel (default 4)",

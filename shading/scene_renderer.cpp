@@ -213,6 +213,7 @@ struct SceneRenderer::State {
         /// AddLight: on nodes that take lamps, and receive shadows or not as `receivers` says.
         DrawMode mode = DrawMode::Fill;
         bool receivers = true;
+        const VirtualLight* image = nullptr;  ///< what is added is the light of
     };
 
     Frame frameOf(const SceneSwitches& on, const Camera& camera, const std::vector<glm::dmat4>& nodes,
@@ -274,6 +275,7 @@ struct SceneRenderer::State {
             const bool brings =
                 frame.on.ambient && radiance != nodeRadiance.end() && wanted.fragment == "scene.frag.glsl";
             if (brings) wanted.defines.emplace_back("NACRE_VERTEX_RADIANCE", "1");
+            if (frame.image) wanted.defines = joined(std::move(wanted.defines), lightPathDefines(*frame.image));
             const Program& next =
                 loader.load(wanted.vertex, wanted.fragment, joined(std::move(wanted.defines), frame.viewDefines));
             const bool own = nodeLights.count(draw.node) != 0;  // its texture is the node's, not the material's
@@ -282,6 +284,7 @@ struct SceneRenderer::State {
                 lit.shadows =
                     shadowed && takesLamps(scene, m, frame.on) ? frame.shadows : std::vector<const ShadowMap*>();
                 bindMaterial(next, draw.node, frame.on, lit);
+                if (frame.image) setLightPath(next, *frame.image);
                 setView(next, view.view, view.light, share);
                 if (m.specular && m.specular->texture) {
                     faceTextures.at(m.specular->texture).bind(kReliefUnit);  // checkSpecular: there is no relief
@@ -332,51 +335,32 @@ struct SceneRenderer::State {
         drawFullscreen(VertexArray());
     }
 
-    /// Light `light` as `value`, no other, where the stencil lets it.
-    void addLight(const Frame& of, const RenderTarget& target, std::size_t light, const Light& value, bool receivers) {
-        std::vector<Light> alone = of.lights;
-        for (Light& other : alone) other.color = Rgb(0);
-        alone[light] = value;
+    /// One of the schedule's lights, where the stencil lets it.
+    void addLight(const Frame& of, const ScheduledView& view, const RenderTarget& target, LightPasses& passes,
+                  std::size_t added) {
         SceneSwitches on = of.on;
         on.ambient = on.surrounding = false;
-        Frame frame = frameOf(on, of.camera, of.nodes, alone);
-        frame.mode = DrawMode::AddLight;
-        frame.receivers = receivers;
-        setAddLight();
-        drawNodes(frame, schedule.views.front(), target);
-        setDrawState(target);
-    }
-
-    /// Everything but light of lamps with a SceneShadow; then that. \throws nacre::Error for nodes with volumes
-    void drawWithShadowVolumes(const Frame& frame, const RenderTarget& target) {
-        const SceneSwitches& on = frame.on;
-        require(on.lightPoints >= 1 && on.lightPoints <= 63, "scene: expected 1 to 63 points of a light's area");
-        for (const SceneNode& node : scene.nodes)
-            if (node.volume >= 0)
-                throw Error(
-                    fmt::format("shadow volumes: expected meshes alone, found a volume at node '{}'", node.name));
-        std::vector<Vec4> sources;
-        const std::vector<ShadowedLamp> lamps = shadowedLamps(scene, on, frame.nodes, frame.lights, sources);
-        clock("shadow volumes", [&] {
-            if (!shadowVolumes) shadowVolumes.emplace(scene);
-            shadowVolumes->update(frame.nodes, sources);
-        });
-        std::vector<Light> unshadowed = frame.lights;
-        for (const ShadowedLamp& lamp : lamps) unshadowed[lamp.light].color = Rgb(0);
-        SceneSwitches rest = on;
-        rest.lamps = lamps.size() < frame.lights.size();
-        clock("surfaces",
-              [&] { drawNodes(frameOf(rest, frame.camera, frame.nodes, unshadowed), schedule.views.front(), target); });
-        clock("light", [&] {
-            const double aspect = static_cast<double>(target.width()) / target.height();
-            const ShadowSight sight = ShadowSight::of(frame.camera, aspect);
-            const LampDrawer draw = [&](std::size_t light, const Light& value, bool receivers) {
-                addLight(frame, target, light, value, receivers);
-            };
-            ShadowStencil stencil(loader);
-            for (const ShadowedLamp& lamp : lamps)
-                addLamp({target, sight, draw}, stencil, *shadowVolumes, lamp, frame.lights[lamp.light], on.softShadows);
-        });
+        on.indirect = on.indirect && !schedule.lights[added].image;  // reliefs' bounced light is of the lamp itself
+        ScheduledView seen = view;
+        seen.light.fog = Rgb(0);  // drawn already
+        const LampDrawer draw = [&](std::size_t light, const Light& value, const VirtualLight* image, bool receivers) {
+            std::vector<Light> alone = of.lights;
+            for (Light& other : alone) other.color = Rgb(0);
+            alone[light] = value;
+            Frame frame = frameOf(on, of.camera, of.nodes, alone);
+            frame.shadows.clear();
+            frame.shadowDefines.clear();
+            frame.mode = DrawMode::AddLight;
+            frame.receivers = receivers;
+            frame.image = image;
+            setAddLight(view.weighted);
+            if (!schedule.faces.empty()) glEnable(GL_CLIP_DISTANCE0);
+            drawNodes(frame, seen, target);
+            setDrawState(target);
+        };
+        const double aspect = static_cast<double>(target.width()) / target.height();
+        const ShadowSight sight = view.level == 0 ? ShadowSight::of(of.camera, aspect) : ShadowSight::of(view.view);
+        passes.add({target, sight, view.level, draw}, added);
     }
 
     void drawPart(const Frame& frame, const ScheduledView& view, SurfacePart part, const RenderTarget& target) {
@@ -387,14 +371,8 @@ struct SceneRenderer::State {
                 clock("sky", [&] { drawBackground(frame, view); });
             return;
         }
-        const bool byVolumes = frame.on.shadows && frame.on.lamps && frame.on.shadowMethod == ShadowMethod::Volumes &&
-                               frame.on.reflectance != SceneReflectance::FastPhong;
-        if (byVolumes)
-            drawWithShadowVolumes(frame, target);
-        else
-            clock("surfaces", [&] {
-                part == SurfacePart::Depth ? drawDepths(frame, view, target) : drawNodes(frame, view, target);
-            });
+        clock("surfaces",
+              [&] { part == SurfacePart::Depth ? drawDepths(frame, view, target) : drawNodes(frame, view, target); });
         if (!volumes.empty()) clock("volumes", [&] { drawVolumes(frame, view); });
     }
 
@@ -408,18 +386,36 @@ struct SceneRenderer::State {
         if (mapsShadows(on) && on.lamps) clock("shadow maps", [&] { updateShadows(camera, aspect, nodes, lights); });
         const Frame frame = frameOf(on, camera, nodes, lights);
         const Bounds box = sceneBox(frame.nodes);
-        schedule = makeSchedule(specularFaces(scene, frame.nodes),
-                                {camera, target.width(), target.height(), box.low, box.high}, on.specular);
-        if (on.shadowMethod == ShadowMethod::Volumes && !schedule.faces.empty())  // views have maps alone
-            throw Error(fmt::format("shadow volumes: expected no specular faces, found node '{}'",
-                                    scene.nodes[schedule.faces.front().node].name));
+        const std::vector<ShadowedLamp> lamps = shadowedLamps(scene, on, nodes, lights);
+        std::vector<SpecularFace> specular = specularFaces(scene, nodes);
+        ScheduleInput input{camera, target.width(), target.height(), box.low, box.high, {}};
+        input.lights = scheduledLights(scene, on, lamps, specular);
+        schedule = makeSchedule(std::move(specular), input, on.specular);
+        std::optional<LightPasses> passes;
+        if (countsShadows(on) || !schedule.lights.empty())
+            clock("shadow volumes", [&] {
+                if (!shadowVolumes) shadowVolumes.emplace(scene);
+                passes.emplace(loader, *shadowVolumes, on, lamps, schedule.faces, schedule.lights, nodes);
+            });
+        // Without the light of lamps that passes add.
+        std::vector<Light> unshadowed = lights;
+        SceneSwitches rest = on;
+        if (countsShadows(on)) {
+            for (const ShadowedLamp& lamp : lamps) unshadowed[lamp.light].color = Rgb(0);
+            rest.lamps = lamps.size() < lights.size();
+        }
+        const Frame surfaces = frameOf(rest, camera, nodes, unshadowed);
         std::vector<FaceMesh> faces;
         for (const SpecularFace& face : schedule.faces)
             faces.push_back({&*meshOf(face.node)->gpu, frame.nodes[face.node],
                              face.specular.texture ? &faceTextures.at(face.specular.texture) : nullptr});
         target.clear(glm::vec4(glm::vec3(on.sky ? scene.sky.color : Rgb(0)), 1));
-        runPasses(loader, schedule, target, faces,
-                  [&](const ScheduledView& view, SurfacePart part) { drawPart(frame, view, part, target); });
+        runPasses(
+            loader, schedule, target, faces,
+            [&](const ScheduledView& view, SurfacePart part) { drawPart(surfaces, view, part, target); },
+            [&](const ScheduledView& view, int light) {
+                clock("light", [&] { addLight(frame, view, target, *passes, static_cast<std::size_t>(light)); });
+            });
     }
 
     /// Takes the value, unless the scene is unsound with it.

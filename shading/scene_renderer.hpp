@@ -39,7 +39,7 @@ public:
 
     SceneSwitches switches;  ///< of the next frame; change it freely
 
-    /// Of the last frame with ShadowMethod::Volumes.
+    /// Of the last frame that had volumes.
     ShadowVolumeCounts shadowVolumes() const;
 
     /// With timing on, passes() tells what the parts of the last frame took; it costs a glFinish a part.

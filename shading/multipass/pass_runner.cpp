@@ -12,19 +12,15 @@ namespace {
 class Runner {
 public:
     Runner(ProgramLoader& loader, const PassSchedule& schedule, const RenderTarget& target,
-           const std::vector<FaceMesh>& meshes, const SurfaceDrawer& draw)
-        : loader_(loader), schedule_(schedule), target_(target), meshes_(meshes), draw_(draw) {}
+           const std::vector<FaceMesh>& meshes, const SurfaceDrawer& draw, const LightAdder& add)
+        : loader_(loader), schedule_(schedule), target_(target), meshes_(meshes), draw_(draw), add_(add) {}
 
     void run() {
         target_.bind();
         glEnable(GL_DEPTH_TEST);
         glDisable(GL_CULL_FACE);
         glDisable(GL_BLEND);
-        if (!schedule_.faces.empty()) {
-            glEnable(GL_STENCIL_TEST);
-            glEnable(GL_SCISSOR_TEST);
-            glEnable(GL_CLIP_DISTANCE0);
-        }
+        enableTests();
         for (const Pass& pass : schedule_.passes) execute(pass);
         glDisable(GL_STENCIL_TEST);
         glDisable(GL_SCISSOR_TEST);
@@ -40,6 +36,13 @@ public:
     }
 
 private:
+    void enableTests() const {
+        if (schedule_.faces.empty()) return;
+        glEnable(GL_STENCIL_TEST);
+        glEnable(GL_SCISSOR_TEST);
+        glEnable(GL_CLIP_DISTANCE0);
+    }
+
     static void colorMask(bool color, bool alpha) { glColorMask(color, color, color, alpha); }
     static void depth(GLenum function, bool write) {
         glDepthFunc(function);
@@ -54,6 +57,10 @@ private:
         switch (pass.kind) {
             case PassKind::Surfaces:
                 return surfaces(view);
+            case PassKind::Light:
+                add_(view, pass.light);
+                glStencilMask(~0u);
+                return enableTests();
             case PassKind::Mask:  // no later face hides it: all faces' depths are there
                 glStencilOp(GL_KEEP, GL_KEEP, GL_INCR);
                 depth(GL_LEQUAL, false);
@@ -128,16 +135,18 @@ private:
     const RenderTarget& target_;
     const std::vector<FaceMesh>& meshes_;
     const SurfaceDrawer& draw_;
+    const LightAdder& add_;
 };
 
 }  // namespace
 
 void runPasses(ProgramLoader& loader, const PassSchedule& schedule, const RenderTarget& target,
-               const std::vector<FaceMesh>& meshes, const SurfaceDrawer& draw) {
+               const std::vector<FaceMesh>& meshes, const SurfaceDrawer& draw, const LightAdder& add) {
     require(meshes.size() == schedule.faces.size(), "runPasses: expected a mesh for each face");
+    require(schedule.lights.empty() || add, "runPasses: expected something that adds lights");
     if (!schedule.faces.empty() && !epoxy_is_desktop_gl())
         throw Error("specular faces: expected OpenGL with clip distances, found OpenGL ES");
-    Runner(loader, schedule, target, meshes, draw).run();
+    Runner(loader, schedule, target, meshes, draw, add).run();
 }
 
 void drawFace(ProgramLoader& loader, const ScheduledView& view, const FaceMesh& mesh, const SpecularFace* face,

@@ -167,15 +167,6 @@ TEST(SpecularScene, OpenGlEsSaysThatItCannot) {
     EXPECT_THROW(renderer.render(target), Error);
 }
 
-TEST(SpecularScene, ShadowVolumesSayThatTheyCannot) {
-    test::context();
-    ProgramLoader loader;
-    SceneRenderer renderer(loader, test::hallOfMirrors());
-    renderer.switches.shadowMethod = ShadowMethod::Volumes;
-    const RenderTarget target({.width = 16, .height = 16});
-    EXPECT_THROW(renderer.render(target), Error);
-}
-
 TEST(SpecularScene, IndexOneIsNoPane) {
     EXPECT_LE(wrongShare(both(test::paneScene(1, true, 0.6), {}, 4, "one")), kWrong);
 }
