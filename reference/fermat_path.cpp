@@ -68,7 +68,8 @@ public:
             for (double scale = 1; scale > 1e-9 && !fell; scale *= 0.5) {
                 for (std::size_t j = 0; j < count_; ++j)
                     points_[j + 1] = before[j + 1] + scale * (down[j].x * bases_[j][0] + down[j].y * bases_[j][1]);
-                fell = measure(points_) && length_ <= length * (1 + 1e-14);  // near the end its fall is lost in rounding
+                fell =
+                    measure(points_) && length_ <= length * (1 + 1e-14);  // near the end its fall is lost in rounding
             }
             if (!fell) return false;
         }

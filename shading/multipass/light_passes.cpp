@@ -95,7 +95,7 @@ void LightPasses::addImage(const LitTarget& to, const VirtualLight& image, std::
 }
 
 bool needsLightPath(const VirtualLight& image) {
-    return !image.weighed.empty() || (image.seen.cone && isRefracted(image));
+    return !image.weighed.empty() || (!image.seen.directional && isRefracted(image));
 }
 
 ShaderDefines lightPathDefines(const VirtualLight& image) {

@@ -33,6 +33,10 @@ constexpr unsigned kBeyondFar = 1;  ///< what is beyond the far plane
 constexpr unsigned kClipped = 2;    ///< what is in front of the sight's clip plane
 constexpr unsigned kCut = 4;        ///< what is in front of the volume's cuts
 
+bool isParallel(const glm::dmat4& worldToClip) {
+    return worldToClip[0][3] == 0 && worldToClip[1][3] == 0 && worldToClip[2][3] == 0;
+}
+
 void frontFaces(bool clockwise) { glFrontFace(clockwise ? GL_CW : GL_CCW); }
 
 }  // namespace
@@ -112,6 +116,7 @@ void ShadowStencil::place(unsigned kind, const PlacedShadowVolume& placed, const
     const Program& program = *volumes_[kind];
     program.set("nacre_world_to_clip", glm::mat4(sight.worldToClip));
     program.set("nacre_stencil_light", glm::vec4(light));
+    program.set("nacre_stencil_nearer", isParallel(sight.worldToClip) ? 1e-5f : 0.0f);
     if (kind & kClipped) program.set("nacre_view_clip", glm::vec4(*sight.clip));
     if (kind & kCut) {
         std::array<glm::vec4, kMostCuts> cuts;

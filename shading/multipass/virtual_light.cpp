@@ -113,7 +113,7 @@ private:
             after.source = *refractedSource;
             const Vec4 slope = (after.source - source) / glm::dot(f.plane, source);
             for (int c = 0; c < 4; ++c) through[c] += f.plane[c] * slope;
-            light.seen.color *= narrowing(source, after.source, f.plane, middle);
+            light.seen.color *= glm::dot(f.plane, source) / glm::dot(f.plane, after.source);
         }
         light.seen.color *= factor;
         LightStage& before = light.stages.back();
@@ -137,21 +137,6 @@ private:
     static glm::dmat4 mirrorOf(const Plane& plane) {
         glm::dmat4 out(1);
         for (int c = 0; c < 4; ++c) out[c] -= 2 * plane[c] * Vec4(Vec3(plane), 0);
-        return out;
-    }
-
-    /// A beam's irradiance beyond the plane over that before it is cosθ / cosθ', right behind the face; of a point, its
-    /// intensity has the distances to it too.
-    static double narrowing(const Vec4& before, const Vec4& after, const Plane& plane, const Vec3& middle) {
-        const auto cosine = [&](const Vec4& source) {
-            const Vec3 way = source.w == 0 ? Vec3(source) : Vec3(source) - middle;
-            return std::abs(glm::dot(Vec3(plane), glm::normalize(way)));
-        };
-        double out = cosine(before) / cosine(after);
-        if (before.w != 0) {
-            const Vec3 near = Vec3(before) - middle, far = Vec3(after) - middle;
-            out *= glm::dot(far, far) / glm::dot(near, near);
-        }
         return out;
     }
 

@@ -7,6 +7,10 @@
 //   B x = x + (π·x / π·V) (V' − V),
 // which leaves the face π as it is and takes the light V to V'. Volumes of what stands before the face are then seen
 // after it under B, which is how a stored volume is used again for its reflections (MPR section 4.3).
+// Flux is kept where light meets the face: of a point's light, irradiance is I cosθ / (cosθ' l²) right behind it, l
+// before and l' after B the distance to the light, which is that of an intensity of I (l'/l)² cosθ / cosθ' at V'. In
+// the direction d to V' the way to V is B⁻¹ d, l/l' = |B⁻¹ d|, and cosθ / cosθ' = (π·V / π·V') / |B⁻¹ d|: a constant
+// over |B⁻¹ d|³.
 #pragma once
 
 #include "core/scene_description.hpp"
@@ -40,7 +44,8 @@ struct VirtualLight {
     std::size_t light = 0, point = 0;  ///< of the scene, and of its area
     std::vector<LightBounce> bounces;  ///< none: the lamp itself
     std::vector<LightStage> stages;    ///< one more
-    Light seen;  ///< at the last stage's source; its color has all factors but `weighed`, its cone is the lamp's own
+    Light seen;  ///< at the last stage's source; its color has all factors but `weighed` and 1 / |toLamp d|³ in the
+                 ///< direction d; its cone is the lamp's own
     std::vector<WeighedBounce> weighed;
     Mat3 toLamp{1};  ///< takes the direction to it to that in which the lamp is seen, up to length
 };

@@ -124,7 +124,8 @@ TEST(LightPath, EveryPointBehindPanesHasItsPath) {
             ASSERT_TRUE(path.has_value()) << eta << ' ' << i;
             const Vec3 in = glm::normalize(path->points[0] - from);
             const Vec3 out = glm::normalize(path->points[1] - path->points[0]);
-            const double sine = glm::length(glm::cross(in, Vec3(first))), beyond = glm::length(glm::cross(out, Vec3(first)));
+            const double sine = glm::length(glm::cross(in, Vec3(first))),
+                         beyond = glm::length(glm::cross(out, Vec3(first)));
             EXPECT_NEAR(sine, eta * beyond, 1e-9) << "Snell";
         }
 }
