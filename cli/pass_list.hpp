@@ -1,14 +1,18 @@
 // What `nacre render --passes` prints.
 #pragma once
 
+#include <nlohmann/json.hpp>
 #include <string>
 
 #include "cli/scene_errors.hpp"
-#include "shading/multipass/specular_options.hpp"
+#include "shading/scene_programs.hpp"
 
 namespace nacre::cli {
 
 /// The passes that draw a scene (shading/multipass/pass_schedule.hpp), found without OpenGL, as text or JSON.
-std::string passList(const SceneDescription& scene, const SceneShot& shot, const SpecularOptions& options, bool asJson);
+std::string passList(const SceneDescription& scene, const SceneShot& shot, const SceneSwitches& on, bool asJson);
+
+/// How many views, passes and added lights a picture took.
+nlohmann::json passCountsJson(const PassSchedule& schedule);
 
 }  // namespace nacre::cli

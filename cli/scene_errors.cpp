@@ -85,6 +85,7 @@ SceneErrors measureScene(SceneRenderer& renderer, const Image& picture, const Sc
     const SceneTruths truths = openTruths(scene, 0, progress);
     SceneTraceOptions options{.width = shot.width, .height = shot.height, .supersample = rays, .time = shot.time};
     options.specularDepth = renderer.switches.specular.depth;
+    options.lightDepth = renderer.switches.specular.lightDepth;
     options.progress = progress;
     const Stopwatch watch;
     std::vector<Image> traced = traceScene(scene, scene.camera, truths, parts, options);

@@ -1,6 +1,7 @@
 // nacre render: a scene drawn without a window, and the same scene traced beside it.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <charconv>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -30,6 +31,7 @@ struct Settings {
     SceneShot shot;
     double white = 0;  ///< 0: of the picture
     int rays = 4;
+    std::optional<int> lightPaths;
     SceneSwitches switches;
     int quality = 0;
     bool reference = false, shares = false, asJson = false, passes = false;
@@ -106,6 +108,15 @@ void runTransferFile(const Context& context, const Settings& s) {
     renderTransfer(context, p);
 }
 
+/// Without --light-paths: those that lead past a thick pane, where nothing forbids them.
+SceneSwitches switchesFor(const Settings& s, const SceneDescription& scene) {
+    SceneSwitches out = s.switches;
+    const bool volumes =
+        std::any_of(scene.nodes.begin(), scene.nodes.end(), [](const SceneNode& node) { return node.volume >= 0; });
+    out.specular.lightDepth = s.lightPaths.value_or(volumes ? 0 : 2);
+    return out;
+}
+
 void runRender(const Context& context, const Settings& s) {
     if (s.output.empty() && !s.passes) throw UsageError("--output: expected a name, found none");
     if (isTransferFile(s.scene)) return runTransferFile(context, s);
@@ -121,12 +132,13 @@ void runRender(const Context& context, const Settings& s) {
     SceneDescription scene = readScene(s.scene, reading);
     if (s.passes) {
         endProgress();
-        return putData(passList(scene, s.shot, atQuality(s.switches, s.quality).specular, s.asJson));
+        return putData(passList(scene, s.shot, atQuality(switchesFor(s, scene), s.quality), s.asJson));
     }
+    const SceneSwitches switches = switchesFor(s, scene);
     const nacre::Context gl(GlApi::Core33);
     ProgramLoader loader;
     SceneRenderer renderer(loader, std::move(scene));
-    renderer.switches = atQuality(s.switches, s.quality);
+    renderer.switches = atQuality(switches, s.quality);
     json radiosity;
     if (s.shot.interreflection) {
         report(progress, "radiosity", 0);
@@ -148,14 +160,15 @@ void runRender(const Context& context, const Settings& s) {
                  {"programs", renderer.programs().size()},
                  {"renderer", gl.description()}};
     if (s.shot.interreflection) data["radiosity"] = radiosity;
-    if (s.switches.shadowMethod == ShadowMethod::Volumes)
+    if (!renderer.schedule().faces.empty()) data["passes"] = passCountsJson(renderer.schedule());
+    if (s.switches.shadowMethod == ShadowMethod::Volumes || !renderer.schedule().lights.empty())
         data["shadow_volumes"] = volumesJson(renderer.shadowVolumes());
     double white = s.white > 0 ? s.white : pictureWhite(picture);
     std::string text = fmt::format("{}: {} x {} pixels of {} samples, {} programs\n", s.output, s.shot.width,
                                    s.shot.height, s.shot.samples * s.shot.samples, renderer.programs().size());
     writePicture(picture, s.output, white);  // before the trace: what can't be written fails now
     if (s.reference || s.shares) {
-        renderer.switches = s.switches;  // whatever the quality, against all
+        renderer.switches = switches;  // whatever the quality, against all
         const SceneErrors errors = measureScene(renderer, picture, s.shot, s.rays, s.shares, progress);
         if (s.white == 0) white = errors.white;
         writePicture(errors.reference, besideName(s.output, "reference", ending), white);
@@ -202,6 +215,10 @@ std::vector<Option> sceneOptions(const std::shared_ptr<Settings>& s) {
          "of\n"
          "frosted faces and of lights' areas",
          only(s->sceneFlag, "--quality", [s](const std::string& text) { s->quality = qualityOf(text); })},
+        {"--light-paths", "N",
+         "Mirrors and panes along a path from a light that has shadows, 0 to 4 (default 2; 0 with voxel volumes)",
+         only(s->sceneFlag, "--light-paths",
+              integerInto([s](long long v) { s->lightPaths = static_cast<int>(v); }, 0, kMostLightBounces))},
         {"--passes", "", "Print the passes that draw a scene, and draw nothing",
          only(s->sceneFlag, "--passes", into(s->passes))},
         {"--rays", "N", "Of a scene's reference: N x N rays a pixel (default 4)",

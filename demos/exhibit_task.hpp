@@ -36,6 +36,7 @@ const std::vector<NamedExhibit>& environmentExhibits();
 const std::vector<NamedExhibit>& bumpExhibits();
 const std::vector<NamedExhibit>& sceneExhibits();
 const std::vector<NamedExhibit>& specularExhibits();
+const std::vector<NamedExhibit>& lightPathExhibits();
 const std::vector<NamedExhibit>& transferExhibits();
 const std::vector<NamedExhibit>& multipassExhibits();
 

@@ -11,6 +11,7 @@
 #include "core/parallel.hpp"
 #include "core/sampling.hpp"
 #include "reference/camera_rays.hpp"
+#include "reference/light_path.hpp"
 #include "reference/specular_path.hpp"
 
 namespace nacre {
@@ -122,6 +123,7 @@ public:
           lights_(lightsInWorld(scene, nodes_)),
           areas_(areasInWorld(scene, nodes_)),
           surfaces_(scene, nodes_),
+          paths_(scene, nodes_, surfaces_, options.lightDepth),
           rays_(options.points.empty() ? CameraRays(camera, options.width, options.height, options.supersample)
                                        : CameraRays(camera, options.width, options.height, options.points)),
           turn_(Mat3(glm::rotate(glm::dmat4(1), -scene.sky.rotationY, Vec3(0, 1, 0)))) {
@@ -167,6 +169,7 @@ private:
         Vec2 at{0};                       ///< in the relief [texels]
         Vec3 reliefNormal{0, 0, 1};       ///< in the mesh's frame
         std::vector<int> shadowed, dark;  ///< a light: by other surfaces, by the relief; −1 = not asked
+        std::vector<std::optional<std::vector<LightArrival>>> arrivals;  ///< a light: by way of specular faces
         std::optional<Rgb> indirect;
         std::optional<Blocked> blocked[2];  ///< without and with the relief's normal
         std::optional<Rgb> mirrorBlocked[2];
@@ -186,6 +189,7 @@ private:
         p.truth = &truths_.materials[material];
         p.shadowed.assign(lights_.size(), -1);
         p.dark.assign(lights_.size(), -1);
+        p.arrivals.resize(lights_.size());
         if (p.truth->relief) {
             const HeightMap& map = p.truth->relief->map;
             p.at = p.s.uv * p.material->relief->tiles * Vec2(map.width(), map.height());
@@ -231,13 +235,16 @@ private:
         if (!f || !(glm::dot(p.s.normal, p.s.toEye) > 0)) return sum;
         for (std::size_t i = 0; i < lights_.size(); ++i) {
             if (!areas_[i]) {
-                sum += lamp(p, frame, parts, relief, i, lights_[i], f);
+                sum +=
+                    lamp(p, frame, parts, relief, i, lights_[i], f) + sentOn(p, frame, parts, relief, i, lights_[i], f);
                 continue;
             }
             PixelSequence next = sequence(p, 4 + i, options_.lightPoints);
             for (int k = 0; k < options_.lightPoints; ++k) {
                 p.shadowed[i] = p.dark[i] = -1;  // of the point before
-                sum += lamp(p, frame, parts, relief, i, pointOfArea(lights_[i], *areas_[i], next()), f) /
+                p.arrivals[i].reset();
+                const Light light = pointOfArea(lights_[i], *areas_[i], next());
+                sum += (lamp(p, frame, parts, relief, i, light, f) + sentOn(p, frame, parts, relief, i, light, f)) /
                        double(options_.lightPoints);
             }
         }
@@ -256,6 +263,26 @@ private:
         const Rgb bounced = bounces ? indirect(p, local) * arriving : Rgb(0);
         if (!direct || (relief && parts.reliefShadow && dark(p, i, local))) return bounced;
         return bounced + f(wi, wo) * arriving * wi.z;
+    }
+
+    /// Light of a lamp that mirrors and panes send on.
+    Rgb sentOn(Point& p, const SurfacePoint& frame, const SceneParts& parts, bool relief, std::size_t i,
+               const Light& light, const BrdfFunction& f) const {
+        if (!parts.shadows || !scene_.lights[i].shadow) return Rgb(0);
+        if (!p.arrivals[i]) {
+            std::vector<LightArrival>& found = p.arrivals[i].emplace();
+            paths_.follow(light, p.s.position, scene_.nodes[p.node].receivesShadow,
+                          [&](const LightArrival& arrival) { found.push_back(arrival); });
+        }
+        const Vec3 wo = toLocal(frame, p.s.toEye);
+        Rgb sum(0);
+        for (const LightArrival& arrival : *p.arrivals[i]) {
+            const Vec3 wi = toLocal(frame, arrival.toLight), local = toLocal(p.s, arrival.toLight);
+            if (!(wi.z > 0 && wo.z > 0) || (relief && local.z <= 0)) continue;
+            if (relief && parts.reliefShadow && !isLit(p.truth->relief->rays, p.at, local)) continue;
+            sum += f(wi, wo) * arrival.irradiance * wi.z;
+        }
+        return sum;
     }
 
     /// Light of lamps by way of other surfaces.
@@ -388,6 +415,7 @@ private:
     std::vector<Light> lights_;
     std::vector<std::optional<LightArea>> areas_;
     SceneRays surfaces_;
+    LightPaths paths_;
     CameraRays rays_;
     Mat3 turn_;
     bool occlusion_ = false;
@@ -400,8 +428,8 @@ std::vector<Image> traceScene(const SceneDescription& scene, const Camera& camer
     require(options.width >= 1 && options.height >= 1 && options.supersample >= 1 && options.skyRays >= 1 &&
                 options.indirectPaths >= 1 && options.occlusionRays >= 1 && options.lightPoints >= 1 &&
                 options.interreflectionPaths >= 1 && options.interreflectionBounces >= 1 &&
-                options.specularDepth >= 0 && options.spreadRays >= 1,
-            "traceScene: sizes and numbers of rays must be >= 1, the specular depth >= 0");
+                options.specularDepth >= 0 && options.lightDepth >= 0 && options.spreadRays >= 1,
+            "traceScene: sizes and numbers of rays must be >= 1, depths >= 0");
     require(truths.materials.size() == scene.materials.size(), "traceScene: expected a truth for each material");
     for (const SceneLight& light : scene.lights) checkCone(light.light);
     const Tracer tracer(scene, camera, truths, parts, options);

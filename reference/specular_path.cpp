@@ -5,13 +5,6 @@
 namespace nacre {
 namespace {
 
-/// Reflectance of unpolarised light from Fresnel's amplitudes, given both cosines; eta: beyond over before.
-double reflectance(double before, double beyond, double eta) {
-    const double s = (before - eta * beyond) / (before + eta * beyond);
-    const double p = (eta * before - beyond) / (eta * before + beyond);
-    return 0.5 * (s * s + p * p);
-}
-
 /// Fog of the face that a ray left, until where it goes.
 struct Fog {
     Rgb radiance{0};
@@ -115,6 +108,12 @@ private:
 
 }  // namespace
 
+double fresnelReflectance(double before, double beyond, double eta) {
+    const double s = (before - eta * beyond) / (before + eta * beyond);
+    const double p = (eta * before - beyond) / (eta * before + beyond);
+    return 0.5 * (s * s + p * p);
+}
+
 std::vector<SpecularRay> specularRays(const SceneSpecular& surface, const Vec3& along, const Vec3& normal) {
     const Vec3 n = glm::dot(along, normal) > 0 ? -normal : normal;
     const double cosine = std::min(1.0, -glm::dot(along, n)), rest = 1 - surface.surface;
@@ -132,7 +131,7 @@ std::vector<SpecularRay> specularRays(const SceneSpecular& surface, const Vec3& 
     double reflects = 1;
     if (sine2 < 1) {
         const double beyond = std::sqrt(1 - sine2);
-        reflects = !surface.partial || eta == 1 ? 0 : reflectance(cosine, beyond, eta);
+        reflects = !surface.partial || eta == 1 ? 0 : fresnelReflectance(cosine, beyond, eta);
         add(along / eta + (cosine / eta - beyond) * n, (1 - reflects) * rest * surface.transmission);
     }
     add(mirrored, reflects * rest * surface.reflection);

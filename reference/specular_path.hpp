@@ -8,6 +8,9 @@
 
 namespace nacre {
 
+/// Reflectance of unpolarised light from Fresnel's amplitudes, given both cosines; eta: index beyond over before.
+double fresnelReflectance(double before, double beyond, double eta);
+
 /// What leaves a specular surface towards the viewer: where it came from and what share arrives, its factor included.
 struct SpecularRay {
     Vec3 direction;  ///< unit

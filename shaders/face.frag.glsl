@@ -9,7 +9,11 @@ in vec2 v_uv;
 out vec4 color;
 
 void main() {
+#ifdef NACRE_FACE_STEPS
+    float share = nacre_face_share(nacre_face_to_eye(v_position));
+#else
     float share = nacre_face_share(nacre_direction_to(nacre_eye, v_position));
+#endif
 #ifdef NACRE_FACE_TEXTURE
     share *= 1.0 - nacre_face_surface * nacre_face_texel(v_uv).a;
 #endif

@@ -104,12 +104,12 @@ void setDrawState(const RenderTarget& target) {
     glDisable(GL_BLEND);
 }
 
-void setAddLight() {
+void setAddLight(bool weighted) {
     glDepthFunc(GL_EQUAL);
     glDepthMask(GL_FALSE);
     glEnable(GL_BLEND);
     glBlendEquation(GL_FUNC_ADD);
-    glBlendFuncSeparate(GL_ONE, GL_ONE, GL_ZERO, GL_ONE);
+    glBlendFuncSeparate(weighted ? GL_DST_ALPHA : GL_ONE, GL_ONE, GL_ZERO, GL_ONE);
 }
 
 void drawMesh(const Program& program, const RenderTarget& target, const GpuMesh& mesh, const glm::dmat4& toWorld,

@@ -49,7 +49,7 @@ void drawMesh(const Program& program, const RenderTarget& target, const GpuMesh&
 /// The same in the state that is. \param mirroredView  outlines turn the other way
 void drawPlaced(const Program& program, const GpuMesh& mesh, const glm::dmat4& toWorld, bool mirroredView = false,
                 const Buffer* radiance = nullptr);
-/// The state of DrawMode::AddLight, from that of setDrawState, which ends it.
-void setAddLight();
+/// The state of DrawMode::AddLight, from that of setDrawState, which ends it. \param weighted  times destination alpha
+void setAddLight(bool weighted = false);
 
 }  // namespace nacre

@@ -44,7 +44,8 @@ struct SceneSwitches {
     bool indirect = true;                                ///< bounced light in reliefs
     bool surrounding = true;                             ///< the environment on surfaces
     bool sky = true;                                     ///< the environment as background
-    SpecularOptions specular{};                          ///< mirrors and panes; depth 0 shows them black
+    SpecularOptions specular{};                          ///< mirrors and panes; depth 0 shows them black. They send
+                                                         ///< light on with `shadows`, of meshes alone
 };
 
 /// What of a baked asset decides about programs.

@@ -4,30 +4,24 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <chrono>
 #include <glm/gtc/matrix_transform.hpp>
 
 #include "core/error.hpp"
-#include "core/light_area.hpp"
 #include "factorize/models/models.hpp"
 #include "shading/context.hpp"
 #include "shading/draw.hpp"
 #include "shading/environment_pass.hpp"
-#include "shading/gpu_relief_light.hpp"
-#include "shading/mean_light.hpp"
+#include "shading/multipass/light_passes.hpp"
 #include "shading/multipass/pass_runner.hpp"
-#include "shading/multipass/scene_shadow_volumes.hpp"
+#include "shading/node_light.hpp"
 #include "shading/pass_state.hpp"
-#include "shading/shadow_map.hpp"
+#include "shading/scene_shadow_maps.hpp"
 #include "shading/volume_pass.hpp"
 
 namespace nacre {
 namespace {
 
 constexpr int kEnvironmentUnit = kMaxFactoredTextures, kReliefUnit = kEnvironmentUnit + kEnvironmentUnits;
-
-/// A relief's bounced light is made again when its light has turned by this much [rad], far below what is seen.
-constexpr double kTurned = 2e-3;
 
 struct DrawnMesh {
     std::optional<GpuMesh> gpu;  ///< none: without triangles
@@ -51,52 +45,6 @@ bool sameMesh(const Mesh& a, const Mesh& b) {
            a.tangents == b.tangents && a.uvs == b.uvs;
 }
 
-/// Bounced light in the relief of one node, and what it was made of.
-struct NodeLight {
-    int asset = -1, version = 0, bounces = 0, paths = 0;
-    Rgb albedo{0};
-    Vec3 direction{0};
-    std::unique_ptr<GpuReliefLight> gpu;
-    // What `direction` was found for.
-    glm::dmat4 toWorld{0};
-    Light light;
-};
-
-bool sameLight(const Light& a, const Light& b) {
-    const bool cones =
-        a.cone.has_value() == b.cone.has_value() &&
-        (!a.cone || (a.cone->axis == b.cone->axis && a.cone->inner == b.cone->inner && a.cone->outer == b.cone->outer));
-    return a.directional == b.directional && a.position == b.position && a.color == b.color && cones;
-}
-
-bool sameShadow(const SceneShadow& a, const SceneShadow& b) {
-    return a.size == b.size && a.bits == b.bits && a.filter == b.filter && a.faces == b.faces && a.bias == b.bias &&
-           a.near == b.near && a.far == b.far && a.cascades == b.cascades && a.dualParaboloid == b.dualParaboloid;
-}
-
-/// A light's shadow map, and what it was drawn from.
-struct LightShadow {
-    std::optional<ShadowMap> map;
-    Light light;
-    std::vector<ShadowCaster> casters;
-    std::vector<VolumeSurface> volumes;
-    Bounds bounds;
-    glm::dmat4 camera{0};  ///< of cascades
-};
-
-bool sameCasters(const std::vector<ShadowCaster>& a, const std::vector<ShadowCaster>& b) {
-    return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](const ShadowCaster& x, const ShadowCaster& y) {
-        return x.mesh == y.mesh && x.toWorld == y.toWorld;
-    });
-}
-
-bool sameVolumes(const std::vector<VolumeSurface>& a, const std::vector<VolumeSurface>& b) {
-    return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](const VolumeSurface& x, const VolumeSurface& y) {
-        return x.volume == y.volume && x.toWorld == y.toWorld && x.iso == y.iso && x.step == y.step &&
-               x.method == y.method;
-    });
-}
-
 /// One node of a frame.
 struct Draw {
     std::size_t node = 0;
@@ -104,47 +52,6 @@ struct Draw {
 };
 
 Mat3 turnedByY(double angle) { return Mat3(glm::rotate(glm::dmat4(1), angle, Vec3(0, 1, 0))); }
-
-/// Times the parts of a frame, when asked to.
-class PassClock {
-public:
-    void start(bool on) {
-        on_ = on;
-        times.clear();
-        next_ = 0;
-    }
-    template <class Work>
-    void operator()(const char* name, Work&& work) {
-        if (!on_) return work();
-        const bool queries = epoxy_is_desktop_gl();
-        if (queries && next_ == queries_.size()) queries_.emplace_back();
-        glFinish();
-        const auto begin = std::chrono::steady_clock::now();
-        if (queries) glBeginQuery(GL_TIME_ELAPSED, queries_[next_].name());
-        work();
-        if (queries) glEndQuery(GL_TIME_ELAPSED);
-        glFinish();
-        PassTime time{name, std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count(), NAN};
-        if (queries) {
-            GLuint64 nanoseconds = 0;
-            glGetQueryObjectui64v(queries_[next_++].name(), GL_QUERY_RESULT, &nanoseconds);
-            time.gpuSeconds = static_cast<double>(nanoseconds) * 1e-9;
-        }
-        const auto before = std::find_if(times.begin(), times.end(), [&](const PassTime& t) { return t.name == name; });
-        if (before == times.end()) {
-            times.push_back(std::move(time));
-        } else {  // another view's
-            before->wallSeconds += time.wallSeconds;
-            before->gpuSeconds += time.gpuSeconds;
-        }
-    }
-    std::vector<PassTime> times;
-
-private:
-    bool on_ = false;
-    std::size_t next_ = 0;
-    std::vector<Query> queries_;  ///< kept from frame to frame
-};
 
 }  // namespace
 
@@ -158,9 +65,9 @@ struct SceneRenderer::State {
     std::map<std::shared_ptr<const Image>, Texture> faceTextures;
     std::vector<std::optional<GpuDirectBrdf>> models;  ///< one a material: what Direct evaluates
     std::map<std::size_t, NodeLight> nodeLights;       ///< of nodes whose relief has indirect light
-    std::vector<LightShadow> lightShadows;             ///< one a light
-    std::optional<SceneShadowVolumes> shadowVolumes;   ///< with ShadowMethod::Volumes
-    std::map<std::size_t, Buffer> nodeRadiance;        ///< a vertex, of nodes that have it
+    SceneShadowMaps shadowMaps;
+    std::optional<SceneShadowVolumes> shadowVolumes;  ///< with ShadowMethod::Volumes
+    std::map<std::size_t, Buffer> nodeRadiance;       ///< a vertex, of nodes that have it
     PassClock clock;
     bool timing = false;
     PassSchedule schedule;  ///< of the last frame
@@ -220,56 +127,22 @@ struct SceneRenderer::State {
         return VolumeSurface{&volumes.at(volume.volume), volume.iso, toWorld, volume.method, volume.step};
     }
 
-    void updateNodeLight(std::size_t node, const SceneRelief& relief, const glm::dmat4& toWorld, const Light& light) {
-        NodeLight& kept = nodeLights[node];
-        const auto index = static_cast<std::size_t>(relief.asset);
-        const bool same = kept.gpu && kept.asset == relief.asset && kept.version == assets.version(index) &&
-                          kept.bounces == relief.bounces && kept.paths == relief.paths && kept.albedo == relief.albedo;
-        if (!same) {
-            const BumpMaps maps = assets.readBump(index);
-            if (!maps.heights || !maps.scatter)
-                throw Error(fmt::format("{}: expected heights and a scatter map, found them gone",
-                                        scene.assets[index].file.string()));
-            GpuReliefLightOptions options;
-            options.albedo = relief.albedo;
-            options.bounces = relief.bounces;
-            options.paths = relief.paths;
-            kept = NodeLight{
-                relief.asset,
-                assets.version(index),
-                relief.bounces,
-                relief.paths,
-                relief.albedo,
-                Vec3(0),
-                std::make_unique<GpuReliefLight>(loader, HeightMap{*maps.heights, maps.wrap}, *maps.scatter, options),
-                glm::dmat4(0),
-                {}};
-        } else if (kept.toWorld == toWorld && sameLight(kept.light, light)) {
-            return;
-        }
-        const auto mesh = static_cast<std::size_t>(scene.nodes[node].mesh);
-        const Vec3 direction = meanLightDirection(scene.meshes[mesh].mesh, toWorld, light);
-        kept.toWorld = toWorld;
-        kept.light = light;
-        if (glm::length(direction - kept.direction) < kTurned) return;
-        kept.gpu->update({.light = direction});
-        kept.direction = direction;
-    }
-
     void updateNodeLights(const SceneSwitches& on, const std::vector<glm::dmat4>& nodes,
                           const std::vector<Light>& lights) {
         for (std::size_t i = 0; i < scene.nodes.size(); ++i) {
             if (!meshOf(i) || !takesLamps(scene, materialOf(i), on)) continue;
             const std::optional<SceneRelief> relief = reliefOf(materialOf(i), traits, on);
-            if (relief && relief->indirectLight >= 0)
-                updateNodeLight(i, *relief, nodes[i], lights[static_cast<std::size_t>(relief->indirectLight)]);
+            if (!relief || relief->indirectLight < 0) continue;
+            nodeLights[i].update(loader, {*relief, assets, scene.assets[static_cast<std::size_t>(relief->asset)].file,
+                                          scene.meshes[static_cast<std::size_t>(scene.nodes[i].mesh)].mesh, nodes[i],
+                                          lights[static_cast<std::size_t>(relief->indirectLight)]});
         }
     }
 
     BumpSurface bumpOf(std::size_t node, const SceneRelief& relief, bool lamps) const {
         BumpSurface out{&asset(relief.asset).bump.value(), relief.shadow, relief.tiles, relief.roughness};
         if (!lamps || relief.indirectLight < 0) return out;
-        out.indirect = nodeLights.at(node).gpu->scattered();
+        out.indirect = nodeLights.at(node).scattered();
         out.indirectLight = relief.indirectLight;
         return out;
     }
@@ -292,7 +165,6 @@ struct SceneRenderer::State {
     /// Draws the maps of lights that moved, or whose casters did.
     void updateShadows(const Camera& camera, double aspect, const std::vector<glm::dmat4>& nodes,
                        const std::vector<Light>& lights) {
-        lightShadows.resize(lights.size());
         ShadowScene drawn;
         drawn.camera = &camera;
         drawn.aspect = aspect;
@@ -302,40 +174,13 @@ struct SceneRenderer::State {
             if (const std::optional<VolumeSurface> volume = volumeOf(i, nodes[i])) drawn.volumes.push_back(*volume);
             if (const DrawnMesh* mesh = meshOf(i)) drawn.casters.push_back({&*mesh->gpu, nodes[i]});
         }
-        if (drawn.bounds.empty()) return;
-        for (std::size_t i = 0; i < lights.size(); ++i) {
-            LightShadow& kept = lightShadows[i];
-            const std::optional<SceneShadow>& options = scene.lights[i].shadow;
-            if (!options) {
-                kept.map.reset();
-                continue;
-            }
-            const bool cascades = lights[i].directional && options->cascades > 1;
-            const glm::dmat4 view = cascades ? camera.projection(aspect) * camera.view() : glm::dmat4(0);
-            if (kept.map && sameShadow(kept.map->options(), *options) && sameLight(kept.light, lights[i]) &&
-                kept.bounds.low == drawn.bounds.low && kept.bounds.high == drawn.bounds.high && kept.camera == view &&
-                sameCasters(kept.casters, drawn.casters) && sameVolumes(kept.volumes, drawn.volumes))
-                continue;
-            if (!kept.map || !sameShadow(kept.map->options(), *options)) kept.map.emplace(*options);
-            kept.map->update(loader, lights[i], drawn);
-            kept.light = lights[i];
-            kept.casters = drawn.casters;
-            kept.volumes = drawn.volumes;
-            kept.bounds = drawn.bounds;
-            kept.camera = view;
-        }
+        shadowMaps.update(loader, scene.lights, lights, drawn);
     }
 
     /// Those in use, one a light or none; for nodes that receive shadows.
     std::vector<const ShadowMap*> shadowsOf(const SceneSwitches& on) const {
         if (!mapsShadows(on) || on.reflectance == SceneReflectance::FastPhong) return {};
-        std::vector<const ShadowMap*> out;
-        bool any = false;
-        for (const LightShadow& shadow : lightShadows) {
-            out.push_back(shadow.map && shadow.map->drawn() ? &*shadow.map : nullptr);
-            any = any || out.back() != nullptr;
-        }
-        return any ? out : std::vector<const ShadowMap*>();
+        return shadowMaps.maps();
     }
 
     /// Everything but the node's place.
@@ -368,6 +213,7 @@ struct SceneRenderer::State {
         /// AddLight: on nodes that take lamps, and receive shadows or not as `receivers` says.
         DrawMode mode = DrawMode::Fill;
         bool receivers = true;
+        const VirtualLight* image = nullptr;  ///< what is added is the light of
     };
 
     Frame frameOf(const SceneSwitches& on, const Camera& camera, const std::vector<glm::dmat4>& nodes,
@@ -429,6 +275,7 @@ struct SceneRenderer::State {
             const bool brings =
                 frame.on.ambient && radiance != nodeRadiance.end() && wanted.fragment == "scene.frag.glsl";
             if (brings) wanted.defines.emplace_back("NACRE_VERTEX_RADIANCE", "1");
+            if (frame.image) wanted.defines = joined(std::move(wanted.defines), lightPathDefines(*frame.image));
             const Program& next =
                 loader.load(wanted.vertex, wanted.fragment, joined(std::move(wanted.defines), frame.viewDefines));
             const bool own = nodeLights.count(draw.node) != 0;  // its texture is the node's, not the material's
@@ -437,6 +284,7 @@ struct SceneRenderer::State {
                 lit.shadows =
                     shadowed && takesLamps(scene, m, frame.on) ? frame.shadows : std::vector<const ShadowMap*>();
                 bindMaterial(next, draw.node, frame.on, lit);
+                if (frame.image) setLightPath(next, *frame.image);
                 setView(next, view.view, view.light, share);
                 if (m.specular && m.specular->texture) {
                     faceTextures.at(m.specular->texture).bind(kReliefUnit);  // checkSpecular: there is no relief
@@ -487,114 +335,32 @@ struct SceneRenderer::State {
         drawFullscreen(VertexArray());
     }
 
-    /// A lamp with a SceneShadow, as points that cast hard shadows.
-    struct ShadowedLamp {
-        std::size_t light = 0;
-        std::vector<Light> points;
-        std::size_t volumes = 0;  ///< number of the first point's in shadowVolumes
-        bool stored = true;       ///< each point has its own
-    };
-    std::vector<ShadowedLamp> shadowedLamps(const SceneSwitches& on, const std::vector<glm::dmat4>& nodes,
-                                            const std::vector<Light>& lights, std::vector<Vec4>& sources) const {
-        const std::vector<std::optional<LightArea>> areas = areasInWorld(scene, nodes);
-        std::vector<ShadowedLamp> out;
-        for (std::size_t i = 0; i < lights.size(); ++i) {
-            if (!scene.lights[i].shadow) continue;
-            ShadowedLamp lamp{i, {lights[i]}, sources.size(), on.softShadows != SoftShadows::Pivot};
-            if (areas[i]) lamp.points = pointsOfArea(lights[i], *areas[i], on.lightPoints);
-            for (const Light& point : lamp.points)
-                if (lamp.stored || sources.size() == lamp.volumes) sources.push_back(homogeneous(point));
-            out.push_back(std::move(lamp));
-        }
-        return out;
-    }
-
-    /// One frame's target, view and places, for the passes that add light.
-    struct LightPasses {
-        const RenderTarget& target;
-        const Camera& camera;
-        SceneSwitches on;
-        const std::vector<glm::dmat4>& nodes;
-        const std::vector<Light>& lights;
-        ShadowSight sight;
-    };
-
-    /// Light `light` as `value`, no other, where the stencil lets it.
-    void addLight(const LightPasses& f, std::size_t light, const Light& value, bool receivers) {
-        std::vector<Light> alone = f.lights;
-        for (Light& other : alone) other.color = Rgb(0);
-        alone[light] = value;
-        Frame frame = frameOf(f.on, f.camera, f.nodes, alone);
-        frame.mode = DrawMode::AddLight;
-        frame.receivers = receivers;
-        setAddLight();
-        drawNodes(frame, schedule.views.front(), f.target);
-        setDrawState(f.target);
-    }
-
-    /// Each point's light, added where the count of its volumes is zero (MPR section 7.2).
-    void addPoints(const LightPasses& f, ShadowStencil& stencil, const ShadowedLamp& lamp) {
-        for (std::size_t k = 0; k < lamp.points.size(); ++k) {
-            const Light& point = lamp.points[k];
-            stencil.begin(f.target);
-            stencil.lit();
-            addLight(f, lamp.light, point, false);
-            stencil.count(f.target, shadowVolumes->of(lamp.volumes + (lamp.stored ? k : 0)), homogeneous(point),
-                          f.sight);
-            stencil.lit();
-            addLight(f, lamp.light, point, true);
-            stencil.end(f.target);
-        }
-    }
-
-    /// The middle's light, dimmed by how many points' volumes contain a pixel (PR94 "Soft shadows").
-    void addLevels(const LightPasses& f, ShadowStencil& stencil, const ShadowedLamp& lamp) {
-        stencil.begin(f.target);
-        stencil.lit();
-        addLight(f, lamp.light, f.lights[lamp.light], false);
-        for (std::size_t k = 0; k < lamp.points.size(); ++k)
-            stencil.count(f.target, shadowVolumes->of(lamp.volumes + k), homogeneous(lamp.points[k]), f.sight,
-                          ShadowCounting::Auto, true);
-        const std::size_t count = lamp.points.size();
-        for (std::size_t level = 0; level < count; ++level) {
-            Light dimmed = f.lights[lamp.light];
-            dimmed.color *= static_cast<double>(count - level) / static_cast<double>(count);
-            stencil.lit(static_cast<unsigned>(level));
-            addLight(f, lamp.light, dimmed, true);
-        }
-        stencil.end(f.target);
-    }
-
-    /// Everything but light of lamps with a SceneShadow; then that. \throws nacre::Error for nodes with volumes
-    void drawWithShadowVolumes(const RenderTarget& target, const Camera& camera, const SceneSwitches& on,
-                               const std::vector<glm::dmat4>& nodes, const std::vector<Light>& lights) {
-        require(on.lightPoints >= 1 && on.lightPoints <= 63, "scene: expected 1 to 63 points of a light's area");
-        for (const SceneNode& node : scene.nodes)
-            if (node.volume >= 0)
-                throw Error(
-                    fmt::format("shadow volumes: expected meshes alone, found a volume at node '{}'", node.name));
-        std::vector<Vec4> sources;
-        const std::vector<ShadowedLamp> lamps = shadowedLamps(on, nodes, lights, sources);
-        clock("shadow volumes", [&] {
-            if (!shadowVolumes) shadowVolumes.emplace(scene);
-            shadowVolumes->update(nodes, sources);
-        });
-        std::vector<Light> unshadowed = lights;
-        for (const ShadowedLamp& lamp : lamps) unshadowed[lamp.light].color = Rgb(0);
-        SceneSwitches rest = on;
-        rest.lamps = lamps.size() < lights.size();
-        clock("surfaces", [&] { drawNodes(frameOf(rest, camera, nodes, unshadowed), schedule.views.front(), target); });
-        clock("light", [&] {
-            LightPasses frame{target, camera, on, nodes, lights, {}};
-            frame.on.ambient = frame.on.surrounding = false;
-            frame.sight = ShadowSight::of(camera, static_cast<double>(target.width()) / target.height());
-            ShadowStencil stencil(loader);
-            for (const ShadowedLamp& lamp : lamps)
-                if (on.softShadows == SoftShadows::Levels && lamp.points.size() > 1)
-                    addLevels(frame, stencil, lamp);
-                else
-                    addPoints(frame, stencil, lamp);
-        });
+    /// One of the schedule's lights, where the stencil lets it.
+    void addLight(const Frame& of, const ScheduledView& view, const RenderTarget& target, LightPasses& passes,
+                  std::size_t added) {
+        SceneSwitches on = of.on;
+        on.ambient = on.surrounding = false;
+        on.indirect = on.indirect && !schedule.lights[added].image;  // reliefs' bounced light is of the lamp itself
+        ScheduledView seen = view;
+        seen.light.fog = Rgb(0);  // drawn already
+        const LampDrawer draw = [&](std::size_t light, const Light& value, const VirtualLight* image, bool receivers) {
+            std::vector<Light> alone = of.lights;
+            for (Light& other : alone) other.color = Rgb(0);
+            alone[light] = value;
+            Frame frame = frameOf(on, of.camera, of.nodes, alone);
+            frame.shadows.clear();
+            frame.shadowDefines.clear();
+            frame.mode = DrawMode::AddLight;
+            frame.receivers = receivers;
+            frame.image = image;
+            setAddLight(view.weighted);
+            if (!schedule.faces.empty()) glEnable(GL_CLIP_DISTANCE0);
+            drawNodes(frame, seen, target);
+            setDrawState(target);
+        };
+        const double aspect = static_cast<double>(target.width()) / target.height();
+        const ShadowSight sight = view.level == 0 ? ShadowSight::of(of.camera, aspect) : ShadowSight::of(view.view);
+        passes.add({target, sight, view.level, draw}, added);
     }
 
     void drawPart(const Frame& frame, const ScheduledView& view, SurfacePart part, const RenderTarget& target) {
@@ -605,14 +371,8 @@ struct SceneRenderer::State {
                 clock("sky", [&] { drawBackground(frame, view); });
             return;
         }
-        const bool byVolumes = frame.on.shadows && frame.on.lamps && frame.on.shadowMethod == ShadowMethod::Volumes &&
-                               frame.on.reflectance != SceneReflectance::FastPhong;
-        if (byVolumes)
-            drawWithShadowVolumes(target, frame.camera, frame.on, frame.nodes, frame.lights);
-        else
-            clock("surfaces", [&] {
-                part == SurfacePart::Depth ? drawDepths(frame, view, target) : drawNodes(frame, view, target);
-            });
+        clock("surfaces",
+              [&] { part == SurfacePart::Depth ? drawDepths(frame, view, target) : drawNodes(frame, view, target); });
         if (!volumes.empty()) clock("volumes", [&] { drawVolumes(frame, view); });
     }
 
@@ -626,18 +386,36 @@ struct SceneRenderer::State {
         if (mapsShadows(on) && on.lamps) clock("shadow maps", [&] { updateShadows(camera, aspect, nodes, lights); });
         const Frame frame = frameOf(on, camera, nodes, lights);
         const Bounds box = sceneBox(frame.nodes);
-        schedule = makeSchedule(specularFaces(scene, frame.nodes),
-                                {camera, target.width(), target.height(), box.low, box.high}, on.specular);
-        if (on.shadowMethod == ShadowMethod::Volumes && !schedule.faces.empty())  // views have maps alone
-            throw Error(fmt::format("shadow volumes: expected no specular faces, found node '{}'",
-                                    scene.nodes[schedule.faces.front().node].name));
+        const std::vector<ShadowedLamp> lamps = shadowedLamps(scene, on, nodes, lights);
+        std::vector<SpecularFace> specular = specularFaces(scene, nodes);
+        ScheduleInput input{camera, target.width(), target.height(), box.low, box.high, {}};
+        input.lights = scheduledLights(scene, on, lamps, specular);
+        schedule = makeSchedule(std::move(specular), input, on.specular);
+        std::optional<LightPasses> passes;
+        if (countsShadows(on) || !schedule.lights.empty())
+            clock("shadow volumes", [&] {
+                if (!shadowVolumes) shadowVolumes.emplace(scene);
+                passes.emplace(loader, *shadowVolumes, on, lamps, schedule.faces, schedule.lights, nodes);
+            });
+        // Without the light of lamps that passes add.
+        std::vector<Light> unshadowed = lights;
+        SceneSwitches rest = on;
+        if (countsShadows(on)) {
+            for (const ShadowedLamp& lamp : lamps) unshadowed[lamp.light].color = Rgb(0);
+            rest.lamps = lamps.size() < lights.size();
+        }
+        const Frame surfaces = frameOf(rest, camera, nodes, unshadowed);
         std::vector<FaceMesh> faces;
         for (const SpecularFace& face : schedule.faces)
             faces.push_back({&*meshOf(face.node)->gpu, frame.nodes[face.node],
                              face.specular.texture ? &faceTextures.at(face.specular.texture) : nullptr});
         target.clear(glm::vec4(glm::vec3(on.sky ? scene.sky.color : Rgb(0)), 1));
-        runPasses(loader, schedule, target, faces,
-                  [&](const ScheduledView& view, SurfacePart part) { drawPart(frame, view, part, target); });
+        runPasses(
+            loader, schedule, target, faces,
+            [&](const ScheduledView& view, SurfacePart part) { drawPart(surfaces, view, part, target); },
+            [&](const ScheduledView& view, int light) {
+                clock("light", [&] { addLight(frame, view, target, *passes, static_cast<std::size_t>(light)); });
+            });
     }
 
     /// Takes the value, unless the scene is unsound with it.
@@ -703,7 +481,7 @@ struct SceneRenderer::State {
         meshes = std::move(nextMeshes);
         volumes = std::move(nextVolumes);
         nodeLights.clear();
-        lightShadows.clear();
+        shadowMaps.clear();
         faceTextures.clear();
         shadowVolumes.reset();
         nodeRadiance.clear();

@@ -9,20 +9,13 @@
 #include "core/scene_description.hpp"
 #include "shading/multipass/pass_schedule.hpp"
 #include "shading/multipass/scene_shadow_volumes.hpp"
+#include "shading/pass_clock.hpp"
 #include "shading/program.hpp"
 #include "shading/render_target.hpp"
 #include "shading/scene_assets.hpp"
 #include "shading/scene_programs.hpp"
 
 namespace nacre {
-
-/// What a part of a frame took: `relief light`, `shadow maps` or `shadow volumes` (made), `surfaces`, `light` (with
-/// volumes counted), `volumes`, `sky`.
-struct PassTime {
-    std::string name;
-    double wallSeconds = 0;  ///< between two glFinish
-    double gpuSeconds = 0;   ///< GL_TIME_ELAPSED; NaN where the context has none (OpenGL ES)
-};
 
 /// Owns the scene's GPU objects. The context that was current in the constructor must be current in every call.
 class SceneRenderer {
@@ -46,7 +39,7 @@ public:
 
     SceneSwitches switches;  ///< of the next frame; change it freely
 
-    /// Of the last frame with ShadowMethod::Volumes.
+    /// Of the last frame that had volumes.
     ShadowVolumeCounts shadowVolumes() const;
 
     /// With timing on, passes() tells what the parts of the last frame took; it costs a glFinish a part.

@@ -12,19 +12,15 @@ namespace {
 class Runner {
 public:
     Runner(ProgramLoader& loader, const PassSchedule& schedule, const RenderTarget& target,
-           const std::vector<FaceMesh>& meshes, const SurfaceDrawer& draw)
-        : loader_(loader), schedule_(schedule), target_(target), meshes_(meshes), draw_(draw) {}
+           const std::vector<FaceMesh>& meshes, const SurfaceDrawer& draw, const LightAdder& add)
+        : loader_(loader), schedule_(schedule), target_(target), meshes_(meshes), draw_(draw), add_(add) {}
 
     void run() {
         target_.bind();
         glEnable(GL_DEPTH_TEST);
         glDisable(GL_CULL_FACE);
         glDisable(GL_BLEND);
-        if (!schedule_.faces.empty()) {
-            glEnable(GL_STENCIL_TEST);
-            glEnable(GL_SCISSOR_TEST);
-            glEnable(GL_CLIP_DISTANCE0);
-        }
+        enableTests();
         for (const Pass& pass : schedule_.passes) execute(pass);
         glDisable(GL_STENCIL_TEST);
         glDisable(GL_SCISSOR_TEST);
@@ -40,6 +36,13 @@ public:
     }
 
 private:
+    void enableTests() const {
+        if (schedule_.faces.empty()) return;
+        glEnable(GL_STENCIL_TEST);
+        glEnable(GL_SCISSOR_TEST);
+        glEnable(GL_CLIP_DISTANCE0);
+    }
+
     static void colorMask(bool color, bool alpha) { glColorMask(color, color, color, alpha); }
     static void depth(GLenum function, bool write) {
         glDepthFunc(function);
@@ -54,6 +57,10 @@ private:
         switch (pass.kind) {
             case PassKind::Surfaces:
                 return surfaces(view);
+            case PassKind::Light:
+                add_(view, pass.light);
+                glStencilMask(~0u);
+                return enableTests();
             case PassKind::Mask:  // no later face hides it: all faces' depths are there
                 glStencilOp(GL_KEEP, GL_KEEP, GL_INCR);
                 depth(GL_LEQUAL, false);
@@ -115,7 +122,7 @@ private:
             const auto i = static_cast<std::size_t>(at->face);
             const ScheduledView& before = schedule_.views[static_cast<std::size_t>(at->parent)];
             (first ? glDisable : glEnable)(GL_BLEND);
-            drawFace(loader_, before, meshes_[i], &schedule_.faces[i], at->bounce);
+            drawFace(loader_, before, meshes_[i], &schedule_.faces[i], at->bounce, stepsTo(schedule_, before));
             at = &before;
         }
         glDisable(GL_BLEND);
@@ -128,25 +135,54 @@ private:
     const RenderTarget& target_;
     const std::vector<FaceMesh>& meshes_;
     const SurfaceDrawer& draw_;
+    const LightAdder& add_;
 };
 
 }  // namespace
 
 void runPasses(ProgramLoader& loader, const PassSchedule& schedule, const RenderTarget& target,
-               const std::vector<FaceMesh>& meshes, const SurfaceDrawer& draw) {
+               const std::vector<FaceMesh>& meshes, const SurfaceDrawer& draw, const LightAdder& add) {
     require(meshes.size() == schedule.faces.size(), "runPasses: expected a mesh for each face");
+    require(schedule.lights.empty() || add, "runPasses: expected something that adds lights");
     if (!schedule.faces.empty() && !epoxy_is_desktop_gl())
         throw Error("specular faces: expected OpenGL with clip distances, found OpenGL ES");
-    Runner(loader, schedule, target, meshes, draw).run();
+    Runner(loader, schedule, target, meshes, draw, add).run();
+}
+
+FaceSteps stepsTo(const PassSchedule& schedule, const ScheduledView& view) {
+    FaceSteps out;
+    bool bends = false;
+    const ScheduledView* at = &view;
+    while (at->parent >= 0 && out.planes.size() < 4) {
+        const ScheduledView& before = schedule.views[static_cast<std::size_t>(at->parent)];
+        const SpecularFace& face = schedule.faces[static_cast<std::size_t>(at->face)];
+        if (at->bounce == Bounce::Refracted) {
+            const double index = sideOf(before.view, face.plane) > 0 ? *face.specular.ior : 1 / *face.specular.ior;
+            out.index[static_cast<int>(out.planes.size())] = static_cast<float>(index);
+            bends = bends || index != 1;
+        }
+        out.planes.emplace_back(face.plane);
+        out.eyes.emplace_back(at->view.eye);
+        at = &before;
+    }
+    out.first = glm::vec4(at->view.eye);
+    return bends ? out : FaceSteps();
 }
 
 void drawFace(ProgramLoader& loader, const ScheduledView& view, const FaceMesh& mesh, const SpecularFace* face,
-              Bounce bounce) {
+              Bounce bounce, const FaceSteps& steps) {
     ShaderDefines defines{{"NACRE_VIEW", "1"}};
+    if (!steps.planes.empty()) defines.emplace_back("NACRE_FACE_STEPS", std::to_string(steps.planes.size()));
     const bool textured = face && mesh.texture;
     if (textured) defines.emplace_back("NACRE_FACE_TEXTURE", "1");
     const Program& program = loader.load("lit.vert.glsl", "face.frag.glsl", defines);
     setView(program, view.view, view.light);
+    if (!steps.planes.empty()) {
+        program.set("nacre_step_plane", steps.planes);
+        program.set("nacre_step_eye", steps.eyes);
+        program.set("nacre_step_index", steps.index);
+        program.set("nacre_step_first", steps.first);
+    }
     if (textured) {
         mesh.texture->bind(0);
         program.set("nacre_face_texture", 0);

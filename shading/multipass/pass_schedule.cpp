@@ -65,7 +65,7 @@ private:
     const SpecularFace& faceAt(int face) const { return out_.faces[static_cast<std::size_t>(face)]; }
 
     void add(PassKind kind, int view, int face, int stencil, const PixelRect& scissor) {
-        out_.passes.push_back({kind, view, face, stencil, scissor});
+        out_.passes.push_back({kind, view, face, stencil, scissor, -1});
     }
 
     /// A view and all that is seen in it.
@@ -73,6 +73,10 @@ private:
         const int level = at(view).level;
         out_.deepest = std::max(out_.deepest, level);
         add(PassKind::Surfaces, view, -1, level, at(view).scissor);
+        for (std::size_t i = 0; i < out_.lights.size(); ++i) {
+            add(PassKind::Light, view, -1, level, at(view).scissor);
+            out_.passes.back().light = static_cast<int>(i);
+        }
         if (level == options_.depth) return;
         for (std::size_t f = 0; f < out_.faces.size(); ++f) drawFace(view, static_cast<int>(f));
     }
@@ -275,11 +279,20 @@ std::string nameOf(const PassSchedule& schedule, const std::vector<std::string>&
     return node < names.size() && !names[node].empty() ? names[node] : fmt::format("node {}", node);
 }
 
+const char* howText(Bounce how) { return how == Bounce::Reflected ? " reflects" : " refracts"; }
+
+std::string addedText(const ScheduledLight& light) {
+    if (!light.image) return "add where no shadow volume is";
+    return fmt::format("add in {} light volume{}, not in shadows of {} stages", light.image->bounces.size(),
+                       light.image->bounces.size() == 1 ? "" : "s", light.image->stages.size());
+}
+
 std::string drawnText(const PassSchedule& schedule, const Pass& pass) {
     const ScheduledView& v = schedule.views[static_cast<std::size_t>(pass.view)];
     if (pass.kind == PassKind::Surfaces)
         return fmt::format("{}{}{}", v.adds ? "add" : "replace", v.weighted ? ", times alpha" : "",
                            v.view.mirrored ? ", turned winding" : "");
+    if (pass.kind == PassKind::Light) return addedText(schedule.lights[static_cast<std::size_t>(pass.light)]);
     if (pass.kind == PassKind::Mask) return "stencil + 1 where not hidden";
     if (pass.kind == PassKind::Clear) return "depth = far";
     if (pass.kind == PassKind::Weight) return "alpha = what the path keeps";
@@ -289,7 +302,7 @@ std::string drawnText(const PassSchedule& schedule, const Pass& pass) {
 }  // namespace
 
 const char* toString(PassKind kind) {
-    static constexpr const char* kNames[] = {"surfaces", "mask", "clear", "weight", "unmask"};
+    static constexpr const char* kNames[] = {"surfaces", "light", "mask", "clear", "weight", "unmask"};
     return kNames[static_cast<int>(kind)];
 }
 
@@ -303,8 +316,11 @@ PassSchedule makeSchedule(std::vector<SpecularFace> faces, const ScheduleInput& 
             fmt::format("specular depth: expected at most {} with {} bits of stencil, half of whose range "
                         "counts shadows, found {}",
                         counter.deepest(), options.stencilBits, options.depth));
+    if (!input.lights.empty() && !options.keepDepth)
+        throw Error("light added by passes: expected views that keep depth, found flattened ones");
     PassSchedule out;
     out.faces = std::move(faces);
+    out.lights = input.lights;
     Scheduler(out, input, options).start();
     return out;
 }
@@ -338,17 +354,32 @@ std::string pathText(const PassSchedule& schedule, const std::vector<std::string
                      const std::vector<int>& path) {
     std::string out = "camera";
     for (const int step : path)
-        out += " > " + nameOf(schedule, names, step / 2) + (step % 2 == 0 ? " reflects" : " refracts");
+        out +=
+            " > " + nameOf(schedule, names, step / 2) + howText(step % 2 == 0 ? Bounce::Reflected : Bounce::Refracted);
     return out;
 }
 
-std::string passListText(const PassSchedule& schedule, const std::vector<std::string>& names) {
+std::string lightText(const PassSchedule& schedule, int light, const std::vector<std::string>& names,
+                      const std::vector<std::string>& lightNames) {
+    const ScheduledLight& l = schedule.lights[static_cast<std::size_t>(light)];
+    const bool named = l.light < lightNames.size() && !lightNames[l.light].empty();
+    std::string out = named ? lightNames[l.light] : fmt::format("light {}", l.light);
+    if (!l.image) return out;
+    for (const LightBounce& b : l.image->bounces) out += " > " + nameOf(schedule, names, b.face) + howText(b.how);
+    return out;
+}
+
+std::string passListText(const PassSchedule& schedule, const std::vector<std::string>& names,
+                         const std::vector<std::string>& lightNames) {
     std::string out = fmt::format("{} passes, {} views, {} levels; {} views left out, in which nothing is seen\n",
                                   schedule.passes.size(), schedule.views.size(), schedule.deepest, schedule.unseen);
+    if (!schedule.lights.empty()) out += fmt::format("lights added in each view: {}\n", schedule.lights.size());
     out += fmt::format("{:>5}  {:<9} {:<12} {:<18} {:<34} {}\n", "", "pass", "stencil", "scissor", "what", "view");
     for (std::size_t i = 0; i < schedule.passes.size(); ++i) {
         const Pass& pass = schedule.passes[i];
-        const std::string face = pass.face < 0 ? "" : nameOf(schedule, names, pass.face) + ": ";
+        const std::string face = pass.light >= 0 ? lightText(schedule, pass.light, names, lightNames) + ": "
+                                 : pass.face < 0 ? ""
+                                                 : nameOf(schedule, names, pass.face) + ": ";
         out += fmt::format("{:>5}  {:<9} {:<12} {:<18} {:<34} {}\n", i, toString(pass.kind),
                            fmt::format("= {}", pass.stencil), rectText(pass.scissor), face + drawnText(schedule, pass),
                            pathText(schedule, names, pathOf(schedule, pass.view)));

@@ -1,7 +1,8 @@
 // What is drawn, in which order, where: a picture with specular faces as a list of passes. A value, made without
 // OpenGL: pass_runner.hpp executes it, passListText prints it.
 //
-// The order is MPR's draw_window and draw_spec_objects (7.1). A view draws its surfaces and the faces' own light. Then
+// The order is MPR's draw_window and draw_spec_objects (7.1). A view draws its surfaces and the faces' own light, and
+//   Light    adds that of a lamp, or of its image in faces, where no shadow volume is counted. Then
 // for each face that shows something, and each way that light leaves it:
 //   Mask     where the face is seen, the stencil counts one level down
 //   Clear    depths go back to the far plane there
@@ -16,6 +17,7 @@
 #include "core/scene.hpp"
 #include "shading/multipass/specular_face.hpp"
 #include "shading/multipass/stencil_counter.hpp"
+#include "shading/multipass/virtual_light.hpp"
 
 namespace nacre {
 
@@ -24,8 +26,6 @@ struct PixelRect {
     int x = 0, y = 0, width = 0, height = 0;
     bool operator==(const PixelRect&) const = default;
 };
-
-enum class Bounce { Reflected, Refracted };
 
 struct ScheduledView {
     SpecularView view;
@@ -41,7 +41,7 @@ struct ScheduledView {
     PixelRect scissor;           ///< the window's box
 };
 
-enum class PassKind { Surfaces, Mask, Clear, Weight, Unmask };
+enum class PassKind { Surfaces, Light, Mask, Clear, Weight, Unmask };
 
 struct Pass {
     PassKind kind = PassKind::Surfaces;
@@ -49,10 +49,12 @@ struct Pass {
     int face = -1;    ///< what is drawn: a face alone; −1: Surfaces, and Weight, which draws all faces of the path
     int stencil = 0;  ///< where the buffer equals this; Mask adds one there, Unmask takes one
     PixelRect scissor;
+    int light = -1;  ///< of the schedule: what a Light pass adds
 };
 
 struct PassSchedule {
     std::vector<SpecularFace> faces;
+    std::vector<ScheduledLight> lights;
     std::vector<ScheduledView> views;  ///< the camera's first; parents before children
     std::vector<Pass> passes;
     int deepest = 0;  ///< level of any view
@@ -64,12 +66,13 @@ struct ScheduleInput {
     Camera camera;
     int width = 512, height = 512;  ///< [pixels]
     Vec3 low{0}, high{0};           ///< a box about the scene
+    std::vector<ScheduledLight> lights{};
 };
 
 /// Paths that end at `depth` faces show those black, but for their own light. Views are left out whose window is empty:
 /// the window is the face's outline in its parent's, cut by it (beam tracing on the image plane).
-/// \throws std::invalid_argument for sizes < 1; nacre::Error when depth is more than the stencil counts, or the views
-///         are more than options.most
+/// \throws std::invalid_argument for sizes < 1; nacre::Error when depth is more than the stencil counts, the views are
+///         more than options.most, or there are lights and views that don't keep depth
 PassSchedule makeSchedule(std::vector<SpecularFace> faces, const ScheduleInput& input, const SpecularOptions& options);
 
 /// Whether some of a ball may be seen in a view; true where that isn't sure. width, height: of the picture.
@@ -83,8 +86,13 @@ std::vector<int> pathOf(const PassSchedule& schedule, int view);
 /// "camera > mirror reflects > pane refracts". \param names  of the scene's nodes
 std::string pathText(const PassSchedule& schedule, const std::vector<std::string>& names, const std::vector<int>& path);
 
-/// A line a pass, for people who know the papers. \param names  of the scene's nodes
-std::string passListText(const PassSchedule& schedule, const std::vector<std::string>& names);
+/// A line a pass, for people who know the papers. \param names  of the scene's nodes, and of its lights
+std::string passListText(const PassSchedule& schedule, const std::vector<std::string>& names,
+                         const std::vector<std::string>& lightNames = {});
+
+/// "lamp > mirror reflects"
+std::string lightText(const PassSchedule& schedule, int light, const std::vector<std::string>& names,
+                      const std::vector<std::string>& lightNames);
 
 const char* toString(PassKind kind);
 

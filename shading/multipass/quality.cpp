@@ -12,15 +12,15 @@ namespace {
 
 struct Level {
     const char* name;
-    int depth, shears, lightPoints;  ///< at most
+    int depth, lightDepth, shears, lightPoints;  ///< at most
     bool partial;
 };
 // Two surfaces along a path are a pane seen through; three a pane in a mirror.
-constexpr Level kLevels[kQualityLevels] = {{"full", 1000, 1 << 20, 63, true},
-                                           {"high", 3, 16, 8, true},
-                                           {"medium", 3, 8, 4, false},
-                                           {"low", 2, 8, 2, false},
-                                           {"least", 2, 2, 1, false}};
+constexpr Level kLevels[kQualityLevels] = {{"full", 1000, kMostLightBounces, 1 << 20, 63, true},
+                                           {"high", 3, 2, 16, 8, true},
+                                           {"medium", 3, 1, 8, 4, false},
+                                           {"low", 2, 0, 8, 2, false},
+                                           {"least", 2, 0, 2, 1, false}};
 
 }  // namespace
 
@@ -35,6 +35,7 @@ int qualityFromString(const std::string& name) {
 SceneSwitches atQuality(SceneSwitches best, int level) {
     const Level& l = kLevels[level];
     best.specular.depth = std::min(best.specular.depth, l.depth);
+    best.specular.lightDepth = std::min(best.specular.lightDepth, l.lightDepth);
     best.specular.shears = std::min(best.specular.shears, l.shears);
     best.specular.partial = best.specular.partial && l.partial;
     best.lightPoints = std::min(best.lightPoints, l.lightPoints);

@@ -2,8 +2,10 @@
 #pragma once
 
 #include <map>
+#include <tuple>
 
 #include "core/scene_description.hpp"
+#include "shading/multipass/shadow_source.hpp"
 #include "shading/multipass/shadow_stencil.hpp"
 
 namespace nacre {
@@ -21,10 +23,15 @@ public:
     /// \param scene  outlives this; its meshes don't change
     explicit SceneShadowVolumes(const SceneDescription& scene) : scene_(&scene) {}
 
-    /// \param nodes  nodeTransforms' result \param lights  homogeneous, in the world
-    void update(const std::vector<glm::dmat4>& nodes, std::span<const Vec4> lights);
-    /// Of one of the lights, as they stand since update().
-    std::vector<PlacedShadowVolume> of(std::size_t light) const;
+    /// Sources of one name share the volumes of objects that no plane cuts. \param nodes  nodeTransforms' result
+    void update(const std::vector<glm::dmat4>& nodes, std::span<const ShadowSource> sources);
+    /// Of one of the sources, as they stand since update().
+    const std::vector<PlacedShadowVolume>& of(std::size_t source) const { return placed_.at(source); }
+    /// The light volume that a face's node sends on from a source: one shadow volume of the face's own, if any.
+    /// \param seen  the light and where the volume is seen
+    std::optional<PlacedShadowVolume> ofFace(std::size_t node, const ShadowSource& seen);
+    /// What neither update() nor ofFace() since then asked for.
+    void forgetUnused();
     const ShadowVolumeCounts& counts() const { return counts_; }
 
 private:
@@ -40,14 +47,24 @@ private:
     struct Stored {
         glm::dmat4 toWorld{0};
         Vec4 light{0};
+        std::vector<Plane> cuts;  ///< in the world
+        std::vector<Plane> cutsInMesh;
         std::size_t mostLayers = 0, bytesAPolygon = 0;
-        Bounds box;
+        bool used = false;                      ///< in this update
+        std::optional<GpuShadowPoints> points;  ///< of a cut mesh
         std::optional<GpuShadowVolume> volume;
     };
-    void store(Stored& stored, const Object& object, const glm::dmat4& toWorld, const Vec4& light);
+    /// By source, node and cutting faces.
+    using Key = std::tuple<std::vector<int>, std::size_t, std::vector<std::size_t>>;
+    const Object& objectOf(std::size_t node);
+    Stored& stored(const Key& key, const Object& object, const glm::dmat4& toWorld, const Vec4& light,
+                   const std::vector<Plane>& cuts);
+    static PlacedShadowVolume placed(const Stored& stored, const Object& object, const glm::dmat4& toLast);
     const SceneDescription* scene_;
-    std::map<int, Object> objects_;                                 ///< by mesh
-    std::map<std::pair<std::size_t, std::size_t>, Stored> stored_;  ///< by light and node
+    std::map<int, Object> objects_;  ///< by mesh
+    std::map<Key, Stored> stored_;
+    std::vector<glm::dmat4> nodes_;
+    std::vector<std::vector<PlacedShadowVolume>> placed_;  ///< a source
     ShadowVolumeCounts counts_;
 };
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <map>
 #include <numeric>
 #include <tuple>
 
@@ -92,7 +93,63 @@ bool isSolid(const ShadowMesh& mesh) {
     return !mesh.triangles.empty();
 }
 
+/// Triangles in front of one plane.
+class PlaneCut {
+public:
+    PlaneCut(std::vector<glm::vec3>& positions, const glm::dvec4& plane) : positions_(positions), plane_(plane) {}
+
+    void operator()(const glm::uvec3& triangle, std::vector<glm::uvec3>& out) {
+        std::vector<std::uint32_t> left;
+        bool inFront = false;
+        for (int c = 0; c < 3; ++c) {
+            const std::uint32_t a = triangle[c], b = triangle[(c + 1) % 3];
+            const double ha = height(a), hb = height(b);
+            if (ha >= 0) left.push_back(a);
+            if ((ha > 0 && hb < 0) || (ha < 0 && hb > 0)) left.push_back(between(std::min(a, b), std::max(a, b)));
+            inFront = inFront || ha > 0;
+        }
+        if (!inFront) return;
+        for (std::size_t i = 1; i + 1 < left.size(); ++i) out.emplace_back(left[0], left[i], left[i + 1]);
+    }
+
+private:
+    double height(std::uint32_t i) const { return glm::dot(plane_, glm::dvec4(positions_[i], 1)); }
+    std::uint32_t between(std::uint32_t a, std::uint32_t b) {
+        const auto [at, fresh] = cuts_.try_emplace({a, b}, static_cast<std::uint32_t>(positions_.size()));
+        if (fresh) {
+            const double ha = height(a), hb = height(b);
+            positions_.emplace_back(glm::mix(Vec3(positions_[a]), Vec3(positions_[b]), ha / (ha - hb)));
+        }
+        return at->second;
+    }
+
+    std::vector<glm::vec3>& positions_;
+    glm::dvec4 plane_;
+    std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> cuts_;
+};
+
 }  // namespace
+
+CutShadowMesh cutShadowMesh(const ShadowMesh& mesh, std::span<const glm::dvec4> planes) {
+    CutShadowMesh out;
+    out.pieces.positions = mesh.positions;
+    out.pieces.triangles = mesh.triangles;
+    out.from.resize(mesh.triangles.size());
+    std::iota(out.from.begin(), out.from.end(), 0u);
+    for (const glm::dvec4& plane : planes) {
+        PlaneCut cut(out.pieces.positions, plane);
+        std::vector<glm::uvec3> left;
+        std::vector<std::uint32_t> from;
+        for (std::size_t t = 0; t < out.pieces.triangles.size(); ++t) {
+            cut(out.pieces.triangles[t], left);
+            from.resize(left.size(), out.from[t]);
+        }
+        out.pieces.triangles = std::move(left);
+        out.from = std::move(from);
+    }
+    addEdges(out.pieces);
+    return out;
+}
 
 ShadowMesh makeShadowMesh(const Mesh& mesh) {
     for (const glm::vec3& p : mesh.positions) require(isFinite(Vec3(p)), "shadow volume: a position is not finite");

@@ -31,4 +31,13 @@ struct ShadowMesh {
 /// \throws std::invalid_argument for an index out of range or a position that isn't finite
 ShadowMesh makeShadowMesh(const Mesh& mesh);
 
+/// What of a mesh lies in front of planes.
+struct CutShadowMesh {
+    ShadowMesh pieces;                ///< its positions begin with the mesh's own; never solid
+    std::vector<std::uint32_t> from;  ///< the mesh's triangle of each piece
+};
+
+/// \param planes  in the mesh's space. Neighbouring pieces share their points. O(n log n).
+CutShadowMesh cutShadowMesh(const ShadowMesh& mesh, std::span<const glm::dvec4> planes);
+
 }  // namespace nacre

@@ -28,10 +28,13 @@ bool reachesBeyondFar(const Bounds& box, const glm::dmat4& worldToClip) {
     return false;
 }
 
-void place(const Program& program, const PlacedShadowVolume& placed, const Vec4& light, const ShadowSight& sight) {
-    program.set("nacre_world_to_clip", glm::mat4(sight.worldToClip));
-    program.set("nacre_stencil_light", glm::vec4(light));
-    setModel(program, placed.toWorld);
+/// Of a volume's program: what of its triangles counts.
+constexpr unsigned kBeyondFar = 1;  ///< what is beyond the far plane
+constexpr unsigned kClipped = 2;    ///< what is in front of the sight's clip plane
+constexpr unsigned kCut = 4;        ///< what is in front of the volume's cuts
+
+bool isParallel(const glm::dmat4& worldToClip) {
+    return worldToClip[0][3] == 0 && worldToClip[1][3] == 0 && worldToClip[2][3] == 0;
 }
 
 void frontFaces(bool clockwise) { glFrontFace(clockwise ? GL_CW : GL_CCW); }
@@ -71,12 +74,16 @@ void GpuShadowVolume::drawSides() const {
 }
 
 void GpuShadowVolume::drawCaps(bool far, bool turnedOver) const {
-    const std::size_t all = bytes_ / sizeof(std::uint32_t), first = all - (shape_.caps + shape_.capsTurned);
-    const std::uint32_t count = turnedOver ? shape_.capsTurned : shape_.caps;
+    const std::uint32_t farOwn = shape_.farCaps + shape_.farCapsTurned, nearAll = shape_.caps + shape_.capsTurned;
+    const bool own = far && shape_.cut;
+    const std::uint32_t facing = own ? shape_.farCaps : shape_.caps;
+    const std::uint32_t count =
+        own ? (turnedOver ? shape_.farCapsTurned : shape_.farCaps) : (turnedOver ? shape_.capsTurned : shape_.caps);
     if (count == 0) return;
+    const std::size_t all = bytes_ / sizeof(std::uint32_t), first = all - farOwn - (own ? 0 : nearAll);
     glBindVertexArray(array_.name());
     glDrawElementsBaseVertex(GL_TRIANGLES, static_cast<GLsizei>(count), GL_UNSIGNED_INT,
-                             offset(first + (turnedOver ? shape_.caps : 0)), far ? 1 : 0);
+                             offset(first + (turnedOver ? facing : 0)), far ? 1 : 0);
 }
 
 ShadowSight ShadowSight::of(const Camera& camera, double aspect) {
@@ -86,15 +93,41 @@ ShadowSight ShadowSight::of(const Camera& camera, double aspect) {
     return out;
 }
 
+ShadowSight ShadowSight::of(const SpecularView& view) { return {view.toClip, view.mirrored, {}, view.clip}; }
+
 static void requireDesktop() {
     if (!epoxy_is_desktop_gl())
         throw Error("shadow volumes: expected desktop OpenGL 3.3, which clamps depths, found OpenGL ES");
 }
 
 ShadowStencil::ShadowStencil(ProgramLoader& loader)
-    : fill_((requireDesktop(), loader.load("fullscreen.vert.glsl", "stencil.frag.glsl"))),
-      volume_(loader.load("stencil_volume.vert.glsl", "stencil.frag.glsl")),
-      beyondFar_(loader.load("stencil_volume.vert.glsl", "stencil.frag.glsl", {{"NACRE_STENCIL_BEYOND_FAR", "1"}})) {}
+    : loader_(&loader), fill_((requireDesktop(), loader.load("fullscreen.vert.glsl", "stencil.frag.glsl"))) {}
+
+/// Puts the program of a kind in use.
+void ShadowStencil::place(unsigned kind, const PlacedShadowVolume& placed, const Vec4& light,
+                          const ShadowSight& sight) {
+    if (!volumes_[kind]) {
+        ShaderDefines defines;
+        if (kind & kBeyondFar) defines.emplace_back("NACRE_STENCIL_BEYOND_FAR", "1");
+        if (kind & kClipped) defines.emplace_back("NACRE_VIEW", "1");
+        if (kind & kCut) defines.emplace_back("NACRE_STENCIL_CUT", "1");
+        volumes_[kind] = &loader_->load("stencil_volume.vert.glsl", "stencil.frag.glsl", defines);
+    }
+    const Program& program = *volumes_[kind];
+    program.set("nacre_world_to_clip", glm::mat4(sight.worldToClip));
+    program.set("nacre_stencil_light", glm::vec4(light));
+    program.set("nacre_stencil_nearer", isParallel(sight.worldToClip) ? 1e-5f : 0.0f);
+    if (kind & kClipped) program.set("nacre_view_clip", glm::vec4(*sight.clip));
+    if (kind & kCut) {
+        std::array<glm::vec4, kMostCuts> cuts;
+        cuts.fill(glm::vec4(0, 0, 0, 1));
+        std::copy(placed.cuts.begin(), placed.cuts.end(), cuts.begin());
+        program.set("nacre_stencil_cut", cuts);
+    }
+    setModel(program, placed.toWorld);
+    program.use();
+    (kind & (kBeyondFar | kClipped) ? glEnable : glDisable)(GL_CLIP_DISTANCE0);
+}
 
 /// One triangle over the target, where (stencil & mask) = (reference & mask).
 void ShadowStencil::everywhere(unsigned reference, unsigned mask, unsigned op, unsigned writes) const {
@@ -132,14 +165,13 @@ void ShadowStencil::count(const RenderTarget& target, std::span<const PlacedShad
     for (const PlacedShadowVolume& placed : volumes) {
         if (!levels && level_ == 0 && layers_ > 0 && layers_ + placed.mostLayers > kCounts) settle(target);
         layers_ += placed.mostLayers;
-        place(volume_, placed, light, sight);
         glStencilFunc(GL_EQUAL, static_cast<GLint>(kShadowMin), kShadowMin);
         glStencilMask(kCounts);
         const bool pass = counting == ShadowCounting::Auto
-                              ? !sight.window.empty() && windowIsLit(sight.window, placed.box, light)
+                              ? !placed.image && !sight.window.empty() && windowIsLit(sight.window, placed.box, light)
                               : counting == ShadowCounting::ZPass;
         if (pass)
-            drawZPass(placed, sight.mirrored);
+            drawZPass(placed, light, sight);
         else
             drawZFail(placed, light, sight);
         ++(pass ? zPasses_ : zFails_);
@@ -150,36 +182,40 @@ void ShadowStencil::count(const RenderTarget& target, std::span<const PlacedShad
 }
 
 /// Faces between the eye and the visible point. Its depth isn't clamped: what is before the window doesn't count.
-void ShadowStencil::drawZPass(const PlacedShadowVolume& placed, bool mirrored) const {
+void ShadowStencil::drawZPass(const PlacedShadowVolume& placed, const Vec4& light, const ShadowSight& sight) {
     glStencilOpSeparate(GL_FRONT, GL_KEEP, GL_KEEP, GL_INCR_WRAP);
     glStencilOpSeparate(GL_BACK, GL_KEEP, GL_KEEP, GL_DECR_WRAP);
-    frontFaces(mirrored);
+    place(0, placed, light, sight);
+    frontFaces(sight.mirrored != placed.mirrored);
     placed.volume->drawSides();
 }
 
 /// Faces behind the visible point, or at its depth. Near caps are drawn as the mesh itself was, clipped alike, so that
 /// a point of the mesh finds its own triangle at its own depth, behind it; what of them is beyond the far plane, where
 /// the mesh wasn't drawn, is clamped to it.
-void ShadowStencil::drawZFail(const PlacedShadowVolume& placed, const Vec4& light, const ShadowSight& sight) const {
+void ShadowStencil::drawZFail(const PlacedShadowVolume& placed, const Vec4& light, const ShadowSight& sight) {
     const GpuShadowVolume& volume = *placed.volume;
+    const bool mirrored = sight.mirrored != placed.mirrored;
     glStencilOpSeparate(GL_FRONT, GL_KEEP, GL_DECR_WRAP, GL_KEEP);
     glStencilOpSeparate(GL_BACK, GL_KEEP, GL_INCR_WRAP, GL_KEEP);
     const auto caps = [&](bool far) {
         for (const bool turned : {false, true}) {
-            frontFaces(sight.mirrored != (turned != far));
+            frontFaces(mirrored != (turned != far));
             volume.drawCaps(far, turned);
         }
     };
+    const unsigned cut = volume.shape_.cut ? kCut : 0;
+    // Of an image no pixel has the depth of a near cap: it is clamped as sides are.
+    if (placed.image) glEnable(GL_DEPTH_CLAMP);
+    place(cut | (sight.clip && !placed.image ? kClipped : 0), placed, light, sight);
     caps(false);
     glEnable(GL_DEPTH_CLAMP);
-    if (reachesBeyondFar(placed.box, sight.worldToClip)) {
-        place(beyondFar_, placed, light, sight);
-        glEnable(GL_CLIP_DISTANCE0);
+    if (!placed.image && !sight.clip && reachesBeyondFar(placed.box, sight.worldToClip)) {
+        place(cut | kBeyondFar, placed, light, sight);
         caps(false);
-        glDisable(GL_CLIP_DISTANCE0);
-        volume_.use();
     }
-    frontFaces(sight.mirrored);
+    place(0, placed, light, sight);
+    frontFaces(mirrored);
     volume.drawSides();
     if (volume.shape_.farCap) caps(true);
     glDisable(GL_DEPTH_CLAMP);
@@ -197,6 +233,14 @@ void ShadowStencil::settle(const RenderTarget& target) {
     everywhere(kShadowMin, kShadowZero, GL_ZERO, kAll);
     layers_ = 0;
     ++settled_;
+}
+
+void ShadowStencil::narrow(const RenderTarget& target, const PlacedShadowVolume& face, const Vec4& light,
+                           const ShadowSight& sight) {
+    count(target, {&face, 1}, light, sight);
+    everywhere(valueOf(0), kAll, GL_INVERT, valueOf(0) ^ level_);
+    everywhere(valueOf(0), kShadowMin, GL_REPLACE, kAll);
+    layers_ = 0;
 }
 
 void ShadowStencil::lit(unsigned count) {

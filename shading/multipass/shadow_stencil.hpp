@@ -1,8 +1,11 @@
 // Draws shadow volumes into the stencil buffer: plus-minus counting of a view's visible points.
 #pragma once
 
+#include <array>
+
 #include "shading/gl_objects.hpp"
 #include "shading/multipass/shadow_volume.hpp"
+#include "shading/multipass/specular_view.hpp"
 #include "shading/program.hpp"
 #include "shading/render_target.hpp"
 
@@ -41,19 +44,26 @@ private:
 /// One volume in the world.
 struct PlacedShadowVolume {
     const GpuShadowVolume* volume = nullptr;
-    glm::dmat4 toWorld{1};  ///< of the object
-    Bounds box;             ///< of the object, in the world
+    glm::dmat4 toWorld{1};  ///< of the object, or of its image
+    Bounds box;             ///< of the object there, in the world
     std::size_t mostLayers = 0;
+    bool image = false;         ///< not the object itself: its near caps aren't drawn surfaces
+    bool mirrored = false;      ///< outlines turn the other way
+    std::vector<Plane> cuts{};  ///< of a volume of a cut mesh: in the mesh's space, at most kMostCuts
 };
+
+inline constexpr std::size_t kMostCuts = 2;
 
 /// What is looked through. A mirror's image is seen with its matrix in worldToClip and `mirrored` set; the window then
 /// is the mirror's face, carried to the same side as the objects.
 struct ShadowSight {
     glm::dmat4 worldToClip{1};
     bool mirrored = false;
-    std::vector<Vec3> window{};  ///< in the world; empty: never z-pass
+    std::vector<Vec3> window{};   ///< in the world; empty: never z-pass
+    std::optional<Plane> clip{};  ///< what lies in front of it alone was drawn
 
     static ShadowSight of(const Camera& camera, double aspect);
+    static ShadowSight of(const SpecularView& view);  ///< a virtual viewpoint
 };
 
 /// Which way of counting, for measurements; Auto is always right.
@@ -76,6 +86,10 @@ public:
     /// \param light  homogeneous, in the world
     void count(const RenderTarget& target, std::span<const PlacedShadowVolume> volumes, const Vec4& light,
                const ShadowSight& sight, ShadowCounting counting = ShadowCounting::Auto, bool levels = false);
+    /// Of a light volume: pixels that no volume of a face contains leave the count, the others have none again (MPR
+    /// section 4.2). Before other volumes are counted.
+    void narrow(const RenderTarget& target, const PlacedShadowVolume& face, const Vec4& light,
+                const ShadowSight& sight);
     /// Draws from here on pass where the count is `count`, once a pixel, which then has its level again. Colours and
     /// depth are written again. \throws std::invalid_argument for a count in views of a level above 0
     void lit(unsigned count = 0);
@@ -90,11 +104,12 @@ private:
     unsigned valueOf(unsigned count) const;
     void settle(const RenderTarget& target);
     void everywhere(unsigned reference, unsigned mask, unsigned op, unsigned writes) const;
-    void drawZPass(const PlacedShadowVolume& placed, bool mirrored) const;
-    void drawZFail(const PlacedShadowVolume& placed, const Vec4& light, const ShadowSight& sight) const;
+    void place(unsigned kind, const PlacedShadowVolume& placed, const Vec4& light, const ShadowSight& sight);
+    void drawZPass(const PlacedShadowVolume& placed, const Vec4& light, const ShadowSight& sight);
+    void drawZFail(const PlacedShadowVolume& placed, const Vec4& light, const ShadowSight& sight);
+    ProgramLoader* loader_;
     const Program& fill_;
-    const Program& volume_;
-    const Program& beyondFar_;  ///< what is there alone
+    std::array<const Program*, 8> volumes_{};  ///< by kind, when loaded
     VertexArray empty_;
     unsigned level_ = 0;
     std::size_t layers_ = 0;

@@ -40,10 +40,10 @@ bool isOutside(const std::vector<Vec3>& points, const std::vector<glm::uvec3>& t
 }
 
 /// +1: the triangle counts as it is, seen counter-clockwise from the light; −1: turned over; 0: not at all.
-std::vector<signed char> turns(const ShadowMesh& mesh, const glm::dmat4& toWorld, const Vec4& light) {
+std::vector<signed char> turns(const ShadowMesh& mesh, const glm::dmat4& toWorld, const Vec4& light, bool whole) {
     const std::vector<Vec3> points = moved(mesh, toWorld);
     const int outward = glm::determinant(glm::dmat3(toWorld)) < 0 ? -1 : 1;
-    const bool half = mesh.solid && isOutside(points, mesh.triangles, light);
+    const bool half = whole && mesh.solid && isOutside(points, mesh.triangles, light);
     std::vector<signed char> out;
     for (const glm::uvec3& t : mesh.triangles) {
         const Vec3 a = points[t.x], normal = glm::cross(points[t.y] - a, points[t.z] - a);
@@ -60,36 +60,72 @@ void addSide(std::vector<std::uint32_t>& out, std::uint32_t a, std::uint32_t b, 
     if (!toOnePoint) out.insert(out.end(), {nearPoint(b), farPoint(a), farPoint(b)});
 }
 
-}  // namespace
-
-Vec4 homogeneous(const Light& light) { return {light.position, light.directional ? 0 : 1}; }
-
-ShadowVolume makeShadowVolume(const ShadowMesh& mesh, const glm::dmat4& toWorld, const Vec4& light) {
+void checkPlaced(const glm::dmat4& toWorld, const Vec4& light) {
     for (int i = 0; i < 4; ++i) require(isFinite(Vec3(toWorld[i])), "shadow volume: its matrix must be finite");
     require(isFinite(Vec3(light)), "shadow volume: the light's position must be finite");
-    const std::vector<signed char> turn = turns(mesh, toWorld, light);
+}
+
+void addSides(ShadowVolume& out, const ShadowMesh& mesh, const std::vector<signed char>& turn) {
     std::map<int, std::vector<std::uint32_t>> sides;  // by how often they count
     for (std::size_t e = 0; e < mesh.edges.size(); ++e) {
         int net = 0;
         for (const std::uint32_t use : mesh.usesOf(e)) net += (use & 1 ? -1 : 1) * turn[use / 2];
         if (net == 0) continue;
         const glm::uvec2 ends = net > 0 ? mesh.edges[e] : glm::uvec2(mesh.edges[e].y, mesh.edges[e].x);
-        addSide(sides[std::abs(net)], ends.x, ends.y, light.w == 0);
+        addSide(sides[std::abs(net)], ends.x, ends.y, !out.farCap);
     }
-    ShadowVolume out;
-    out.farCap = light.w != 0;
     for (const auto& [times, list] : sides) {
         out.sides.push_back(
             {static_cast<std::uint32_t>(out.indices.size()), static_cast<std::uint32_t>(list.size()), times});
         out.indices.insert(out.indices.end(), list.begin(), list.end());
     }
+}
+
+/// Those seen counter-clockwise from the light, then those turned over.
+void addCaps(ShadowVolume& out, const std::vector<glm::uvec3>& triangles, const std::vector<signed char>& turn,
+             std::uint32_t& caps, std::uint32_t& turned) {
     for (const int wanted : {1, -1})
-        for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+        for (std::size_t t = 0; t < triangles.size(); ++t) {
             if (turn[t] != wanted) continue;
-            const glm::uvec3& c = mesh.triangles[t];
+            const glm::uvec3& c = triangles[t];
             out.indices.insert(out.indices.end(), {nearPoint(c.x), nearPoint(c.y), nearPoint(c.z)});
-            (wanted > 0 ? out.caps : out.capsTurned) += 3;
+            (wanted > 0 ? caps : turned) += 3;
         }
+}
+
+}  // namespace
+
+Vec4 homogeneous(const Light& light) { return {light.position, light.directional ? 0 : 1}; }
+
+ShadowVolume makeShadowVolume(const ShadowMesh& mesh, const glm::dmat4& toWorld, const Vec4& light) {
+    checkPlaced(toWorld, light);
+    const std::vector<signed char> turn = turns(mesh, toWorld, light, true);
+    ShadowVolume out;
+    out.farCap = light.w != 0;
+    addSides(out, mesh, turn);
+    addCaps(out, mesh.triangles, turn, out.caps, out.capsTurned);
+    return out;
+}
+
+ShadowVolume makeShadowVolume(const ShadowMesh& mesh, const CutShadowMesh& cut, const glm::dmat4& toWorld,
+                              const Vec4& light) {
+    checkPlaced(toWorld, light);
+    const std::vector<signed char> turn = turns(mesh, toWorld, light, false);
+    std::vector<signed char> ofPieces, ofWhole;
+    std::vector<glm::uvec3> whole;
+    for (std::size_t i = 0; i < cut.from.size(); ++i) {
+        const std::uint32_t t = cut.from[i];
+        ofPieces.push_back(turn[t]);
+        if (i > 0 && cut.from[i - 1] == t) continue;
+        whole.push_back(mesh.triangles[t]);
+        ofWhole.push_back(turn[t]);
+    }
+    ShadowVolume out;
+    out.farCap = light.w != 0;
+    out.cut = true;
+    addSides(out, cut.pieces, ofPieces);
+    addCaps(out, whole, ofWhole, out.caps, out.capsTurned);
+    if (out.farCap) addCaps(out, cut.pieces.triangles, ofPieces, out.farCaps, out.farCapsTurned);
     return out;
 }
 

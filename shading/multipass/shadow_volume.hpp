@@ -27,11 +27,14 @@ struct ShadowVolume {
         std::uint32_t first = 0, count = 0;  ///< of `indices`
         int times = 1;                       ///< how often they count
     };
-    std::vector<std::uint32_t> indices;      ///< three points a triangle: sides, then caps; caps name near points
+    std::vector<std::uint32_t> indices;      ///< three points a triangle: sides, then caps; caps name near points.
+                                             ///< Of a cut mesh far caps of their own are the last
     std::vector<Sides> sides;                ///< at most a few
     std::uint32_t caps = 0, capsTurned = 0;  ///< indices of caps that go counter-clockwise seen from the light, and of
                                              ///< those, after them, that go clockwise
     bool farCap = true;
+    bool cut = false;                              ///< near caps are whole triangles, far caps pieces
+    std::uint32_t farCaps = 0, farCapsTurned = 0;  ///< of a cut mesh, as `caps`
 
     std::size_t bytes() const { return indices.size() * sizeof(std::uint32_t); }
     /// Triangles that can stand one behind the other: no count is higher.
@@ -41,6 +44,12 @@ struct ShadowVolume {
 /// \param light  in the world, homogeneous. O(triangles), with a light inside the body's box some 10 times that.
 /// \throws std::invalid_argument unless toWorld and light are finite
 ShadowVolume makeShadowVolume(const ShadowMesh& mesh, const glm::dmat4& toWorld, const Vec4& light);
+
+/// The same of what of the mesh lies in front of planes. Near caps are its whole triangles, to be drawn where they are
+/// in front of the planes alone: a pixel of the mesh then finds its own triangle at its own depth, which a piece of it
+/// might miss by rounding.
+ShadowVolume makeShadowVolume(const ShadowMesh& mesh, const CutShadowMesh& cut, const glm::dmat4& toWorld,
+                              const Vec4& light);
 
 /// Bytes of the same encoding with a volume for each polygon: three sides and a cap each.
 std::size_t bytesOfVolumeAPolygon(const ShadowMesh& mesh, const Vec4& light);

@@ -24,8 +24,12 @@ enum class ShearSampling {
     Random           ///< MPR's
 };
 
+inline constexpr int kMostLightBounces = 4;
+
 struct SpecularOptions {
-    int depth = 4;  ///< specular surfaces along a path from the eye, ≥ 0
+    int depth = 4;       ///< specular surfaces along a path from the eye, ≥ 0
+    int lightDepth = 0;  ///< specular surfaces along a path from a lamp with a SceneShadow, 0 to kMostLightBounces;
+                         ///< 0: they block such light and send none on
     RefractionAngle angle = RefractionAngle::WindowCentre;
     RefractedEye eye = RefractedEye::OnNormal;
     bool keepDepth = true;  ///< false: PR94's map onto the face, without depths: later draws cover earlier ones

@@ -20,6 +20,9 @@ namespace nacre {
 /// (n, d): n·x + d is the distance of a point in front, n unit.
 using Plane = Vec4;
 
+/// How a path goes on from a face.
+enum class Bounce { Reflected, Refracted };
+
 struct SpecularView {
     glm::dmat4 toClip{1};
     Vec4 eye{0, 0, 0, 1};       ///< w = 1: position; w = 0: unit direction towards an orthographic viewer

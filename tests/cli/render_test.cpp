@@ -135,6 +135,20 @@ TEST(CommandRender, MirrorsAndPanesAreDrawnTracedAndListed) {
     EXPECT_LT(json::parse(low.out)["errors"]["all"]["psnr"], json::parse(run.out)["errors"]["all"]["psnr"])
         << "against the same reference";
     EXPECT_THAT(nacre({"info", scene}).out, HasSubstr("specular mirror"));
+    const auto render = [&](const char* lights) {
+        const Outcome out = nacre({"render", scene, "-o", scratch / "l.png", "--size", "96x64", "--shadows", "volumes",
+                                   "--light-paths", lights, "--reference", "--json"});
+        EXPECT_EQ(out.code, 0) << out.err;
+        return json::parse(out.out);
+    };
+    const json without = render("0"), with = render("1");
+    EXPECT_EQ(without["passes"]["lights"], 1);
+    EXPECT_EQ(with["passes"]["lights"], 2) << "the mirror's image of the lamp; the pane casts no shadow";
+    EXPECT_EQ(with["passes"]["light_passes"], 2 * with["passes"]["views"].get<int>());
+    EXPECT_GT(with["errors"]["all"]["psnr"], 32);
+    const Outcome lights = nacre({"render", scene, "--passes", "--light-paths", "1"});
+    EXPECT_THAT(lights.out, HasSubstr("lamp > looking-glass reflects: add in 1 light volume"));
+    EXPECT_EQ(nacre({"render", scene, "-o", scratch / "l.png", "--light-paths", "5"}).code, 2);
     const Outcome deep = nacre({"render", scene, "-o", scratch / "d.png", "--depth", "500"});
     EXPECT_EQ(deep.code, 1);
     EXPECT_THAT(deep.err, HasSubstr("at most 127 with 8 bits of stencil"));

@@ -212,7 +212,10 @@ std::vector<ProgramCase> programs() {
     out.push_back({"fullscreen.vert.glsl", "prefilter_copy.frag.glsl", {{}}});
     out.push_back({"fullscreen.vert.glsl", "prefilter_halve.frag.glsl", {{}}});
     out.push_back({"fullscreen.vert.glsl", "present.frag.glsl", {{}}});
-    out.push_back({"stencil_volume.vert.glsl", "stencil.frag.glsl", {{}, {{"NACRE_STENCIL_BEYOND_FAR", "1"}}}});
+    out.push_back({"stencil_volume.vert.glsl",
+                   "stencil.frag.glsl",
+                   {{}, {{"NACRE_STENCIL_CUT", "1"}}, {{"NACRE_STENCIL_BEYOND_FAR", "1"}}, {{"NACRE_VIEW", "1"}}},
+                   true});
     const std::vector<ShaderDefines> surroundings = environmentChoices();
     out.push_back({"lit.vert.glsl", "environment.frag.glsl", {surroundings.rbegin(), surroundings.rend()}});
     out.push_back({"sky.vert.glsl", "sky.frag.glsl", surroundings});
@@ -245,6 +248,8 @@ std::vector<ProgramCase> programs() {
     out.push_back({"sky.vert.glsl", "background.frag.glsl", {view}, true});
     out.push_back({"sky.vert.glsl", "sky.frag.glsl", combined({surroundings.back()}, {view}), true});
     out.push_back({"lit.vert.glsl", "scene.frag.glsl", combined({{}, everything}, {view}), true});
+    const ShaderDefines path{{"NACRE_LIGHT_PATH", "2"}};
+    out.push_back({"lit.vert.glsl", "scene.frag.glsl", combined(combined({everything}, {path}), {view}), true});
     out.push_back({"lit_vertex.vert.glsl", "lit_vertex.frag.glsl", combined({spots}, {view}), true});
     out.push_back({"volume.vert.glsl", "volume.frag.glsl",
                    combined(combined({everything}, {{}, {{"NACRE_VOLUME_MARCH", "1"}}}), {view}), true});

@@ -2,6 +2,7 @@
 #ifndef NACRE_BIND_LIGHTS_GLSL
 #define NACRE_BIND_LIGHTS_GLSL
 
+#include "nacre/bind/light_path.glsl"
 #include "nacre/light.glsl"
 
 // Their number: a literal where the program gives it (#define NACRE_LIGHTS 5). The loops then unroll; drivers that run
@@ -20,9 +21,9 @@ uniform vec3 nacre_ambient;            // radiance added to every point
 // Share of light i's color that reaches a facing surface at `point`; to_light: unit. Not shadowed. C++: lightFalloff
 // (core/scene.hpp), to 1e-4 (tests/shading/light_test.cpp).
 float nacre_light_share(int i, vec3 to_light, vec3 point) {
-    float share = nacre_light_falloff(nacre_light_position[i], point);
+    float share = nacre_light_falloff(nacre_light_position[i], point) * nacre_path_share(to_light);
 #ifdef NACRE_LIGHT_CONES
-    share *= nacre_cone_share(nacre_light_cone[i], to_light);
+    share *= nacre_cone_share(nacre_light_cone[i], nacre_path_at_lamp(to_light));
 #endif
     return share;
 }

@@ -7,6 +7,7 @@
 #include <map>
 
 #include "core/error.hpp"
+#include "shading/multipass/light_schedule.hpp"
 #include "shading/scene_bounds.hpp"
 #include "tests/shading/multipass/specular_fixture.hpp"
 
@@ -61,6 +62,34 @@ TEST(PassSchedule, OneMirrorIsMaskedDrawnAndUnmasked) {
     EXPECT_LT(scissor.width, 128) << "about the face alone";
     EXPECT_GT(scissor.x, 0);
     EXPECT_THAT(passListText(schedule, {"mirror"}), HasSubstr("camera > mirror reflects"));
+}
+
+TEST(PassSchedule, EachViewAddsEachLight) {
+    test::SpecularScene s;
+    s.face("mirror", {}, {0, 0, 0}, 0.2, {0, 1, 0}, Vec3(0.5));
+    SceneLight lamp;
+    lamp.light = {false, {0, 1, 2}, Rgb(1), {}};
+    lamp.shadow = SceneShadow{};
+    s.scene.lights = {lamp};
+    SceneSwitches on;
+    on.shadowMethod = ShadowMethod::Volumes;
+    on.specular.lightDepth = 1;
+    const std::vector<glm::dmat4> nodes = nodeTransforms(s.scene, 0);
+    const std::vector<SpecularFace> faces = specularFaces(s.scene, nodes);
+    ScheduleInput input{s.scene.camera, 64, 64, Vec3(-1), Vec3(1), {}};
+    input.lights =
+        scheduledLights(s.scene, on, shadowedLamps(s.scene, on, nodes, lightsInWorld(s.scene, nodes)), faces);
+    ASSERT_EQ(input.lights.size(), 2u) << "the lamp, and its image";
+    const PassSchedule schedule = makeSchedule(faces, input, on.specular);
+    EXPECT_EQ(countsOf(schedule)[PassKind::Light], 4);
+    expectCountsReturn(schedule);
+    EXPECT_THAT(passListText(schedule, {"mirror"}, {"lamp"}),
+                HasSubstr("lamp > mirror reflects: add in 1 light volume"));
+    SpecularOptions flat = on.specular;
+    flat.keepDepth = false;
+    EXPECT_THROW(makeSchedule(faces, input, flat), Error);
+    on.shadows = false;
+    EXPECT_TRUE(shadowedLamps(s.scene, on, nodes, lightsInWorld(s.scene, nodes)).empty());
 }
 
 TEST(PassSchedule, TwoFacingMirrorsAreDrawnInTurns) {

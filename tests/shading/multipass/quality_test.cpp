@@ -10,10 +10,12 @@ namespace {
 
 TEST(Quality, LevelsGiveUpMoreAndMoreAndNeverAdd) {
     SceneSwitches best;
+    best.specular.lightDepth = kMostLightBounces;
     EXPECT_EQ(atQuality(best, 0).specular, best.specular);
     for (int level = 1; level < kQualityLevels; ++level) {
         const SceneSwitches a = atQuality(best, level - 1), b = atQuality(best, level);
         EXPECT_LE(b.specular.depth, a.specular.depth);
+        EXPECT_LE(b.specular.lightDepth, a.specular.lightDepth);
         EXPECT_LE(b.specular.shears, a.specular.shears);
         EXPECT_LE(b.lightPoints, a.lightPoints);
         EXPECT_LE(b.specular.partial, a.specular.partial);
