@@ -35,10 +35,11 @@ public:
             fogLight += share * faded * fog.radiance;
             share *= 1 - faded;
         }
-        if (!hit) return end_({{}, along, share});
+        const bool later = left < options_.depth;
+        if (!hit) return end_({{}, along, share, Rgb(1), later});
         const auto material = static_cast<std::size_t>(scene_.nodes[hit->node].material);
         const std::optional<SceneSpecular>& specular = scene_.materials[material].specular;
-        if (!specular) return end_({hit, along, share});
+        if (!specular) return end_({hit, along, share, Rgb(1), later});
         SceneSpecular here = *specular;
         Rgb texel(1);
         if (here.texture) {
@@ -46,14 +47,15 @@ public:
             texel = Rgb(at);
             here.surface *= at.a;
         }
-        if (here.surface > 0) end_({hit, along, share * here.surface, texel});
+        if (here.surface > 0) end_({hit, along, share * here.surface, texel, true});
         if (left == 0) return;
+        const Vec3 normal = normalOf(*hit, along);
         const bool spreads = here.spread > 0;
         const int count = spreads && !split ? options_.spreadRays : 1;
-        for (const SpecularRay& next : specularRays(here, along, hit->plane))
+        for (const SpecularRay& next : specularRays(here, along, normal))
             for (int i = 0; i < count; ++i) {
-                const Vec3 direction = spreads ? spread(next.direction, hit->plane, here.spread) : next.direction;
-                const double cosine = std::abs(glm::dot(direction, hit->plane));
+                const Vec3 direction = spreads ? spread(next.direction, normal, here.spread) : next.direction;
+                const double cosine = std::abs(glm::dot(direction, normal));
                 const Fog ahead{here.fog, here.fogDistance > 0 ? cosine / here.fogDistance : 0};
                 follow({hit->s.position, direction, rays_.skip(), std::numeric_limits<float>::max()},
                        share * next.share / double(count), left - 1, ahead, split || spreads);
@@ -61,6 +63,13 @@ public:
     }
 
 private:
+    /// The interpolated normal on the triangle's side, as curved surfaces need it; the triangle's own where the ray
+    /// sees those two from different sides, at outlines.
+    static Vec3 normalOf(const SceneRays::Hit& hit, const Vec3& along) {
+        const Vec3 smooth = glm::dot(hit.s.normal, hit.plane) < 0 ? -hit.s.normal : hit.s.normal;
+        return glm::dot(along, smooth) * glm::dot(along, hit.plane) > 0 ? smooth : hit.plane;
+    }
+
     /// Slopes against the normal moved by a Gaussian (Box and Muller's).
     Vec3 spread(const Vec3& direction, const Vec3& normal, double deviation) const {
         const Vec3 n = glm::dot(direction, normal) > 0 ? normal : -normal;
