@@ -9,6 +9,7 @@
 #include "cli/output_file.hpp"
 #include "cli/pass_list.hpp"
 #include "cli/picture_output.hpp"
+#include "cli/render_hybrid.hpp"
 #include "cli/render_transfer.hpp"
 #include "cli/scene_errors.hpp"
 #include "cli/scene_light.hpp"
@@ -31,15 +32,16 @@ struct Settings {
     int rays = 4;
     SceneSwitches switches;
     bool reference = false, shares = false, asJson = false, passes = false;
+    HybridPictures hybrid;      ///< when the scene is drawn in stages
     TransferPictures transfer;  ///< when the scene is a transfer file
     std::string weights;
     std::string sceneFlag, transferFlag;  ///< the first option given that only scenes have, only transfer files
 };
 
 /// An option of one kind of file alone: notes in `flagGiven` that it was given.
-std::function<void(const std::string&)> only(std::string& flagGiven, const char* flag,
+std::function<void(const std::string&)> only(std::string& flagGiven, std::string flag,
                                              std::function<void(const std::string&)> take) {
-    return [&flagGiven, flag, take = std::move(take)](const std::string& text) {
+    return [&flagGiven, flag = std::move(flag), take = std::move(take)](const std::string& text) {
         if (flagGiven.empty()) flagGiven = flag;
         take(text);
     };
@@ -104,6 +106,15 @@ void runTransferFile(const Context& context, const Settings& s) {
     renderTransfer(context, p);
 }
 
+void runHybrid(const Context& context, const Settings& s, SceneDescription scene) {
+    if (s.shares || s.shot.interreflection)
+        throw UsageError("--indirect: expected neither --shares nor --radiosity beside it");
+    HybridPictures p = s.hybrid;
+    p.output = s.output, p.shot = s.shot, p.white = s.white, p.rays = s.rays, p.switches = s.switches;
+    p.reference = s.reference, p.asJson = s.asJson;
+    renderHybrid(context, std::move(scene), p);
+}
+
 void runRender(const Context& context, const Settings& s) {
     if (s.output.empty() && !s.passes) throw UsageError("--output: expected a name, found none");
     if (isTransferFile(s.scene)) return runTransferFile(context, s);
@@ -121,6 +132,7 @@ void runRender(const Context& context, const Settings& s) {
         endProgress();
         return putData(passList(scene, s.shot, s.switches.specular, s.asJson));
     }
+    if (isHybrid(s.hybrid)) return runHybrid(context, s, std::move(scene));
     const nacre::Context gl(GlApi::Core33);
     ProgramLoader loader;
     SceneRenderer renderer(loader, std::move(scene));
@@ -250,6 +262,10 @@ std::vector<Option> options(const std::shared_ptr<Settings>& s) {
         {"--white", "W", "Radiance shown as white in PNG", positiveInto([s](double v) { s->white = v; })},
         {"--reference", "", "Trace the same, and print the error", into(s->reference)}};
     for (Option& option : sceneOptions(s)) out.push_back(std::move(option));
+    for (Option& option : hybridOptions(s->hybrid)) {
+        option.take = only(s->sceneFlag, option.flags, std::move(option.take));
+        out.push_back(std::move(option));
+    }
     for (Option& option : transferOptions(s)) out.push_back(std::move(option));
     out.push_back({"--json", "", "One JSON object on standard output", into(s->asJson)});
     return out;

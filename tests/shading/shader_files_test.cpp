@@ -212,6 +212,16 @@ std::vector<ProgramCase> programs() {
     out.push_back({"fullscreen.vert.glsl", "prefilter_copy.frag.glsl", {{}}});
     out.push_back({"fullscreen.vert.glsl", "prefilter_halve.frag.glsl", {{}}});
     out.push_back({"fullscreen.vert.glsl", "present.frag.glsl", {{}}});
+    out.push_back({"item_buffer.vert.glsl", "item_buffer.frag.glsl", {{}}});
+    out.push_back({"lit.vert.glsl", "geometry.frag.glsl", {{}}});
+    out.push_back(
+        {"stencil_volume.vert.glsl", "counted_volume.frag.glsl", {{{"NACRE_STENCIL_BEYOND_NEAR", "1"}}}, true});
+    out.push_back({"fullscreen.vert.glsl", "counted_add.frag.glsl", {{}}});
+    out.push_back({"fullscreen.vert.glsl", "counted_mask.frag.glsl", {{}}});
+    out.push_back({"fullscreen.vert.glsl", "shadow_filter.frag.glsl", {{}, {{"NACRE_EDGE_STOPPING", "1"}}}});
+    for (const char* near : {"NACRE_VIRTUAL_POINT", "NACRE_VIRTUAL_DISK", "NACRE_VIRTUAL_RECTANGLE"})
+        out.push_back({"fullscreen.vert.glsl", "indirect.frag.glsl",
+                       combined({{{"NACRE_VIRTUAL_NEAR", near}}}, {{}, {{"NACRE_VIRTUAL_SHADOWS", "1"}}})});
     out.push_back({"stencil_volume.vert.glsl", "stencil.frag.glsl", {{}, {{"NACRE_STENCIL_BEYOND_FAR", "1"}}}});
     const std::vector<ShaderDefines> surroundings = environmentChoices();
     out.push_back({"lit.vert.glsl", "environment.frag.glsl", {surroundings.rbegin(), surroundings.rend()}});
