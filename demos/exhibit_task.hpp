@@ -38,6 +38,7 @@ const std::vector<NamedExhibit>& sceneExhibits();
 const std::vector<NamedExhibit>& specularExhibits();
 const std::vector<NamedExhibit>& transferExhibits();
 const std::vector<NamedExhibit>& multipassExhibits();
+const std::vector<NamedExhibit>& hybridExhibits();
 
 /// shadow_exhibits.cpp
 Exhibit shadowStudyExhibit(const Task& task);
