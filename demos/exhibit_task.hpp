@@ -48,6 +48,10 @@ Exhibit transferGlossExhibit(const Task& task);
 /// transfer_objects_exhibit.cpp
 Exhibit transferObjectsExhibit(const Task& task);
 
+/// counted_shadow_exhibits.cpp
+Exhibit countedShadowsExhibit(const Task& task);
+Exhibit softCountedExhibit(const Task& task);
+
 /// environment_sweeps.cpp
 Exhibit ggxSweepExhibit(const Task& task);
 Exhibit sunExhibit(const Task& task);

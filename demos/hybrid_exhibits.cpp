@@ -58,6 +58,7 @@ VirtualLightOptions lights(int count, bool shadows, VirtualLightChoice choice = 
     out.count = count;
     out.shadows = shadows;
     out.choice = choice;
+    if (choice == VirtualLightChoice::Strongest) out.elements.least = 512;  // large enough to matter one by one
     return out;
 }
 
@@ -143,7 +144,10 @@ Exhibit virtualLights(const Task& task) {
 }  // namespace
 
 const std::vector<NamedExhibit>& hybridExhibits() {
-    static const std::vector<NamedExhibit> kExhibits = {{"hybrid-stages", stages}, {"virtual-lights", virtualLights}};
+    static const std::vector<NamedExhibit> kExhibits = {{"hybrid-stages", stages},
+                                                        {"virtual-lights", virtualLights},
+                                                        {"counted-shadows", countedShadowsExhibit},
+                                                        {"counted-soft-shadows", softCountedExhibit}};
     return kExhibits;
 }
 

@@ -1,5 +1,5 @@
 // 7 x 7 average of a shadow's levels (HYBRID section 4.1). #define NACRE_EDGE_STOPPING: of pixels of the same object, no
-// farther from the plane of its surface than a tenth of their distance, whose level is within 3.5 steps of the middle one's.
+// farther from the plane of its surface than a tenth of their distance, whose level is within 1.5 steps of the middle one's.
 #include "nacre/bind/counted.glsl"
 #include "nacre/bind/geometry.glsl"
 
@@ -22,7 +22,7 @@ void main() {
             vec4 other = texelFetch(nacre_geometry_place, there, 0);
             vec3 offset = other.xyz - place.xyz;
             if (other.w != place.w || abs(dot(n, offset)) > 0.1 * length(offset)) weight = 0.0;
-            if (abs(level - middle) > 3.5 * nacre_counted_value) weight = 0.0;
+            if (abs(level - middle) > 1.5 * nacre_counted_value) weight = 0.0;
 #endif
             sum += weight * level;
             weights += weight;

@@ -18,7 +18,7 @@ struct CountedShadowOptions {
 };
 
 /// How a soft shadow's levels are smoothed. Box: the paper's 7 × 7 average. EdgeStopping: the same, of those pixels
-/// that show the same object near the plane of the middle one's surface, and differ from it by at most three of the
+/// that show the same object near the plane of the middle one's surface, and differ from it by at most one of the
 /// light's points: steps between levels go, edges of shadows stay.
 enum class ShadowFilter { None, Box, EdgeStopping };
 
