@@ -100,6 +100,7 @@ Exhibit countedShadowsExhibit(const Task& task) {
         {"5b-light-behind", "Figure 5b: the light is behind the eye"},
         {"6-eye-between", "Figure 6: the eye is between light and occluder"},
         {"7-under-a-table", "Figure 7: under a table"},
+        {"small-before-the-view", "What rays may miss: a small ball whose shadow is in a part of the view plane"},
     };
     ExhibitBuilder builder(task.loader, task.id, task.builder());
     const int size = task.size(240), fine = kSupersample * size;
@@ -131,12 +132,9 @@ Exhibit countedShadowsExhibit(const Task& task) {
     e.section = "Hybrid rendering";
     e.title = "Shadow volumes by s-count and g-count";
     e.caption =
-        "HYBRID section 2: sides before a point are counted in a float image, all sides along its ray in the stencil "
-        "at "
-        "the same time, so that each is drawn once; ends of volumes go into the stencil alone. Without ends, points "
-        "are "
-        "lit that shouldn't be where a ray passes through one. The table has the time of a light's shadows, volumes "
-        "made anew.";
+        "HYBRID section 2: sides before a point are counted in a float image, all sides along its ray at once in the "
+        "stencil, so that each is drawn once; ends of volumes go into the stencil alone. Without ends, rays that pass "
+        "through one are counted wrongly. The table has the time of a light's shadows, volumes made anew.";
     e.scene = "demos/scenes/figures; light without shadows times what the counts leave.";
     builder.finish(e);
     return e;
