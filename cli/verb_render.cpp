@@ -18,6 +18,7 @@
 #include "core/error.hpp"
 #include "shading/context.hpp"
 #include "shading/image_output.hpp"
+#include "shading/multipass/quality.hpp"
 #include "shading/scene_file.hpp"
 
 namespace nacre::cli {
@@ -31,6 +32,7 @@ struct Settings {
     double white = 0;  ///< 0: of the picture
     int rays = 4;
     SceneSwitches switches;
+    int quality = 0;
     bool reference = false, shares = false, asJson = false, passes = false;
     HybridPictures hybrid;      ///< when the scene is drawn in stages
     TransferPictures transfer;  ///< when the scene is a transfer file
@@ -130,13 +132,13 @@ void runRender(const Context& context, const Settings& s) {
     SceneDescription scene = readScene(s.scene, reading);
     if (s.passes) {
         endProgress();
-        return putData(passList(scene, s.shot, s.switches.specular, s.asJson));
+        return putData(passList(scene, s.shot, atQuality(s.switches, s.quality).specular, s.asJson));
     }
     if (isHybrid(s.hybrid)) return runHybrid(context, s, std::move(scene));
     const nacre::Context gl(GlApi::Core33);
     ProgramLoader loader;
     SceneRenderer renderer(loader, std::move(scene));
-    renderer.switches = s.switches;
+    renderer.switches = atQuality(s.switches, s.quality);
     json radiosity;
     if (s.shot.interreflection) {
         report(progress, "radiosity", 0);
@@ -152,6 +154,9 @@ void runRender(const Context& context, const Settings& s) {
                  {"samples", s.shot.samples},
                  {"time", s.shot.time},
                  {"seconds", seconds},
+                 {"quality", qualityName(s.quality)},
+                 {"specular_views", renderer.schedule().views.size() - 1},
+                 {"passes", renderer.schedule().passes.size()},
                  {"programs", renderer.programs().size()},
                  {"renderer", gl.description()}};
     if (s.shot.interreflection) data["radiosity"] = radiosity;
@@ -162,6 +167,7 @@ void runRender(const Context& context, const Settings& s) {
                                    s.shot.height, s.shot.samples * s.shot.samples, renderer.programs().size());
     writePicture(picture, s.output, white);  // before the trace: what can't be written fails now
     if (s.reference || s.shares) {
+        renderer.switches = s.switches;  // whatever the quality, against all
         const SceneErrors errors = measureScene(renderer, picture, s.shot, s.rays, s.shares, progress);
         if (s.white == 0) white = errors.white;
         writePicture(errors.reference, besideName(s.output, "reference", ending), white);
@@ -203,6 +209,11 @@ std::vector<Option> sceneOptions(const std::shared_ptr<Settings>& s) {
         {"--depth", "N", "Mirrors and panes along a path from the eye (default 4)",
          only(s->sceneFlag, "--depth",
               integerInto([s](long long v) { s->switches.specular.depth = static_cast<int>(v); }, 0, 1000))},
+        {"--quality", "LEVEL",
+         "full (default), high, medium, low or least: how deep mirrors and panes go, whether glass reflects, samples "
+         "of\n"
+         "frosted faces and of lights' areas",
+         only(s->sceneFlag, "--quality", [s](const std::string& text) { s->quality = qualityOf(text); })},
         {"--passes", "", "Print the passes that draw a scene, and draw nothing",
          only(s->sceneFlag, "--passes", into(s->passes))},
         {"--rays", "N", "Of a scene's reference: N x N rays a pixel (default 4)",

@@ -129,10 +129,9 @@ Exhibit virtualLights(const Task& task) {
     e.title = "One bounce of light by virtual lights";
     e.caption =
         "Item buffers from the lamp give each surface element the power it reflects (HYBRID section 3). The paper "
-        "makes "
-        "the strongest elements point lights and leaves the rest out; here groups of elements keep all power. A light "
-        "is a disk near by, so that it has no singularity; what that takes of a point's light is the table's "
-        "\"clamped\".";
+        "makes the strongest elements point lights and leaves the rest out; here groups of elements keep all power. "
+        "Near by a light is the rectangle it stands for, without singularity; the table's \"clamped\" is what that "
+        "takes of a point's light.";
     e.scene = "demos/scenes/cornell-box.json, indirect light alone.";
     e.commands = {
         "nacre render demos/scenes/cornell-box.json -o box.png --indirect virtual-lights --virtual-lights 256 "

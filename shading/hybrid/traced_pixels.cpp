@@ -21,7 +21,7 @@ void checkTraceable(const SceneDescription& scene) {
         if (m.surrounding) fail("no surrounding");
         if (!m.specular) continue;
         const SceneSpecular& s = *m.specular;
-        if (s.spread > 0 || s.fogDistance > 0 || s.texture || s.surface > 0)
+        if (s.scatters() || s.fogDistance > 0 || s.texture || s.surface > 0)
             fail("a clear specular surface, without spread, fog, texture and own light");
     }
 }

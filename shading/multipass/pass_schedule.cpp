@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "core/error.hpp"
+#include "shading/multipass/rough_face.hpp"
 
 namespace nacre {
 namespace {
@@ -40,6 +41,8 @@ Vec2 gaussian(int i, ShearSampling sampling) {
     const double radius = std::sqrt(-2 * std::log1p(-u.x));
     return radius * Vec2(std::cos(2 * kPi * u.y), std::sin(2 * kPi * u.y));
 }
+
+int stepOf(int face, Bounce bounce) { return 2 * face + (bounce == Bounce::Refracted ? 1 : 0); }
 
 class Scheduler {
 public:
@@ -82,7 +85,8 @@ private:
             ++out_.unseen;
             return;
         }
-        const std::vector<Branch> branches = branchesOf(view, face, window);
+        std::vector<Branch> branches = branchesOf(view, face, window);
+        dropHidden(pathOf(out_, view), face, branches);
         if (branches.empty()) return;
         const PixelRect scissor = boxOf(window);
         const int level = at(view).level;
@@ -116,6 +120,18 @@ private:
             adds = true;
         }
         add(PassKind::Unmask, view, face, level + 1, scissor);
+    }
+
+    void dropHidden(std::vector<int> path, int face, std::vector<Branch>& branches) const {
+        if (options_.hidden.empty()) return;
+        path.push_back(0);
+        branches.erase(std::remove_if(branches.begin(), branches.end(),
+                                      [&](const Branch& branch) {
+                                          path.back() = stepOf(face, branch.bounce);
+                                          return std::find(options_.hidden.begin(), options_.hidden.end(), path) !=
+                                                 options_.hidden.end();
+                                      }),
+                       branches.end());
     }
 
     /// Where the face is seen, hidden parts included.
@@ -181,7 +197,7 @@ private:
         };
         if (!s.ior) {
             reflects(false);
-            return sheared(view, f, std::move(out));
+            return sheared(view, face, window, std::move(out));
         }
         const double eta = sideOf(from, f.plane) > 0 ? *s.ior : 1 / *s.ior;
         const bool total = !refractedEye(from, f.plane, f.centre(), eta, options_.eye);
@@ -192,25 +208,35 @@ private:
         if (refracts && transmission != Rgb(0))
             out.push_back({Bounce::Refracted, transmission, s.partial && eta != 1, refracted(from, f.plane, *eye),
                            at(view).shear});
-        if (s.partial ? eta != 1 : total) reflects(s.partial);
-        return sheared(view, f, std::move(out));
+        if (s.partial ? eta != 1 && (options_.partial || total) : total) reflects(s.partial);
+        return sheared(view, face, window, std::move(out));
     }
 
     /// Frosted and glossy faces: many views for one; but one for one where the path has been split already.
-    std::vector<Branch> sheared(int view, const SpecularFace& face, std::vector<Branch> branches) {
-        if (face.specular.spread == 0) return branches;
+    std::vector<Branch> sheared(int view, int number, const std::vector<Vec2>& window, std::vector<Branch> branches) {
+        const SpecularFace& face = faceAt(number);
+        if (!face.specular.scatters()) return branches;
         const int before = at(view).shear, count = before < 0 ? options_.shears : 1;
+        const int side = sideOf(at(view).view, face.plane);
+        const Vec3 towards = towardsEye(at(view).view, incidentPoint(view, number, window));
         std::vector<Branch> out;
         for (const Branch& branch : branches)
             for (int i = 0; i < count; ++i) {
                 // A second face takes its samples in another order.
                 const int sample = before < 0 ? i : (before * 7 + 3) % options_.shears;
-                const Vec2 slope = face.specular.spread * gaussian(sample, options_.sampling);
+                const Vec2 facet = gaussian(sample, options_.sampling);
+                FacetShear shear{face.specular.spread * facet, 1};
+                if (face.specular.roughness > 0) {
+                    std::optional<double> eta;
+                    if (branch.bounce == Bounce::Refracted)
+                        eta = side > 0 ? *face.specular.ior : 1 / *face.specular.ior;
+                    shear = facetShear(towards, face.plane, eta, face.specular.roughness, facet);
+                    if (shear.weight == 0) continue;
+                }
                 Branch next = branch;
-                next.factor /= double(count);
+                next.factor *= shear.weight / double(count);
                 next.shear = sample;
-                const int side = sideOf(at(view).view, face.plane);
-                next.view = seenFrom(at(view).view, face.plane, shearedEye(branch.view.eye, face.plane, slope),
+                next.view = seenFrom(at(view).view, face.plane, shearedEye(branch.view.eye, face.plane, shear.slope),
                                      branch.bounce == Bounce::Reflected ? side : -side, branch.view.mirrored);
                 out.push_back(std::move(next));
             }
@@ -247,14 +273,6 @@ std::string rectText(const PixelRect& r) { return fmt::format("{},{} {}x{}", r.x
 std::string nameOf(const PassSchedule& schedule, const std::vector<std::string>& names, int face) {
     const std::size_t node = schedule.faces[static_cast<std::size_t>(face)].node;
     return node < names.size() && !names[node].empty() ? names[node] : fmt::format("node {}", node);
-}
-
-/// "camera > mirror reflects > pane refracts"
-std::string pathText(const PassSchedule& schedule, const std::vector<std::string>& names, int view) {
-    const ScheduledView& v = schedule.views[static_cast<std::size_t>(view)];
-    if (v.parent < 0) return "camera";
-    return pathText(schedule, names, v.parent) + " > " + nameOf(schedule, names, v.face) +
-           (v.bounce == Bounce::Reflected ? " reflects" : " refracts");
 }
 
 std::string drawnText(const PassSchedule& schedule, const Pass& pass) {
@@ -308,6 +326,22 @@ double nearestDepth(const SpecularView& view, const Vec3& centre, double radius)
     return depthOf(view, centre) - radius * glm::length(slope);
 }
 
+std::vector<int> pathOf(const PassSchedule& schedule, int view) {
+    const ScheduledView& v = schedule.views[static_cast<std::size_t>(view)];
+    if (v.parent < 0) return {};
+    std::vector<int> path = pathOf(schedule, v.parent);
+    path.push_back(stepOf(v.face, v.bounce));
+    return path;
+}
+
+std::string pathText(const PassSchedule& schedule, const std::vector<std::string>& names,
+                     const std::vector<int>& path) {
+    std::string out = "camera";
+    for (const int step : path)
+        out += " > " + nameOf(schedule, names, step / 2) + (step % 2 == 0 ? " reflects" : " refracts");
+    return out;
+}
+
 std::string passListText(const PassSchedule& schedule, const std::vector<std::string>& names) {
     std::string out = fmt::format("{} passes, {} views, {} levels; {} views left out, in which nothing is seen\n",
                                   schedule.passes.size(), schedule.views.size(), schedule.deepest, schedule.unseen);
@@ -317,7 +351,7 @@ std::string passListText(const PassSchedule& schedule, const std::vector<std::st
         const std::string face = pass.face < 0 ? "" : nameOf(schedule, names, pass.face) + ": ";
         out += fmt::format("{:>5}  {:<9} {:<12} {:<18} {:<34} {}\n", i, toString(pass.kind),
                            fmt::format("= {}", pass.stencil), rectText(pass.scissor), face + drawnText(schedule, pass),
-                           pathText(schedule, names, pass.view));
+                           pathText(schedule, names, pathOf(schedule, pass.view)));
     }
     return out;
 }

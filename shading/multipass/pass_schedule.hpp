@@ -78,6 +78,11 @@ bool maySee(const ScheduledView& view, int width, int height, const Vec3& centre
 /// depthOf the nearest point of a ball.
 double nearestDepth(const SpecularView& view, const Vec3& centre, double radius);
 
+/// The way to a view: for each face 2 · its number, + 1 where it refracts. The same for all shears of a face.
+std::vector<int> pathOf(const PassSchedule& schedule, int view);
+/// "camera > mirror reflects > pane refracts". \param names  of the scene's nodes
+std::string pathText(const PassSchedule& schedule, const std::vector<std::string>& names, const std::vector<int>& path);
+
 /// A line a pass, for people who know the papers. \param names  of the scene's nodes
 std::string passListText(const PassSchedule& schedule, const std::vector<std::string>& names);
 

@@ -127,6 +127,13 @@ TEST(CommandRender, MirrorsAndPanesAreDrawnTracedAndListed) {
     const Outcome run = nacre({"render", scene, "-o", scratch / "r.png", "--size", "96x64", "--reference", "--json"});
     ASSERT_EQ(run.code, 0) << run.err;
     EXPECT_GT(json::parse(run.out)["errors"]["all"]["psnr"], 32) << "outlines, shadows' edges, one angle a pane";
+    const Outcome low = nacre(
+        {"render", scene, "-o", scratch / "l.png", "--size", "96x64", "--quality", "low", "--reference", "--json"});
+    ASSERT_EQ(low.code, 0) << low.err;
+    EXPECT_EQ(json::parse(low.out)["quality"], "low");
+    EXPECT_LT(json::parse(low.out)["passes"], json::parse(run.out)["passes"]);
+    EXPECT_LT(json::parse(low.out)["errors"]["all"]["psnr"], json::parse(run.out)["errors"]["all"]["psnr"])
+        << "against the same reference";
     EXPECT_THAT(nacre({"info", scene}).out, HasSubstr("specular mirror"));
     const Outcome deep = nacre({"render", scene, "-o", scratch / "d.png", "--depth", "500"});
     EXPECT_EQ(deep.code, 1);
@@ -176,6 +183,7 @@ TEST(CommandRender, WrongUsageIsTwo) {
         {{"render", scene, "-o", output, "--size", "0x10"}, "WIDTHxHEIGHT"},
         {{"render", scene, "-o", output, "--samples", "0"}, "--samples"},
         {{"render", scene, "-o", output, "--time", "soon"}, "--time"},
+        {{"render", scene, "-o", output, "--quality", "best"}, "--quality: expected full, high, medium, low or least"},
         {{"render", scene}, "--output"}};
     for (const auto& [arguments, words] : cases) {
         const Outcome run = nacre(arguments);
