@@ -186,12 +186,16 @@ void renderHybrid(const Context& context, SceneDescription scene, const HybridPi
     if (p.indirect) stages.push_back({"indirect", shrunk(drawn.indirect, n), {}});
     if (renderer.report().traced.pixels > 0) stages.push_back({"traced", shrunk(drawn.traced, n), {}});
     stages.push_back({"blended", shrunk(drawn.blended, n), {}});
-    if (p.reference) data["errors"] = compareStages(scene, p, stages, progress);
-    endProgress();
     const Stage& whole = stages.back();
     const std::string ending = pictureEnding(p.output);
-    const double white = p.white > 0 ? p.white : pictureWhite(p.reference ? whole.traced : whole.drawn);
-    writePicture(whole.drawn, p.output, white);
+    double white = p.white > 0 ? p.white : pictureWhite(whole.drawn);
+    writePicture(whole.drawn, p.output, white);  // before the trace: what can't be written fails now
+    if (p.reference) {
+        data["errors"] = compareStages(scene, p, stages, progress);
+        if (p.white <= 0) white = pictureWhite(whole.traced);
+        writePicture(whole.drawn, p.output, white);  // both with one white
+    }
+    endProgress();
     for (const Stage& stage : stages) {
         const bool last = &stage == &whole;
         if (p.stages && !last) writePicture(stage.drawn, besideName(p.output, stage.name.c_str(), ending), white);
