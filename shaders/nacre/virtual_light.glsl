@@ -49,9 +49,9 @@ mat3 nacre_virtual_frame(vec3 n) {
 float nacre_virtual_lit(sampler2DArray map, int layer, vec3 q, vec3 m, vec4 drawn) {
     float r = length(q);
     vec2 p = q.xy / (r + max(q.z, 0.0));
-    ivec2 texel = ivec2(clamp((p * drawn.z * 0.5 + 0.5) * drawn.w, vec2(0.0), vec2(drawn.w - 1.0)));
-    float depth = texelFetch(map, ivec3(texel, layer), 0).x;
-    vec2 middle = ((vec2(texel) + 0.5) * (2.0 / drawn.w) - 1.0) / drawn.z;
+    vec2 texel = floor(clamp((p * drawn.z * 0.5 + 0.5) * drawn.w, vec2(0.0), vec2(drawn.w - 1.0))) + 0.5;
+    float depth = textureLod(map, vec3(texel / drawn.w, float(layer)), 0.0).x;  // texelFetch checks bounds
+    vec2 middle = (texel * (2.0 / drawn.w) - 1.0) / drawn.z;
     vec3 stored = nacre_shadow_paraboloid(middle) * (depth / drawn.y + drawn.x);
     float bias = 2.0 * r / (drawn.w * drawn.z);
     return depth < 1.0 && dot(m, stored - q) > bias ? 0.0 : 1.0;
