@@ -177,6 +177,16 @@ Image grey(const View& view, const Image& level, const Vec3& lamp) {
 
 }  // namespace
 
+ShadowStage shadowStage(ProgramLoader& loader, const SceneDescription& scene, int width, int height) {
+    View view(loader, scene, width, height);
+    const Light lamp = lightsInWorld(view.scene, view.nodes).front();
+    const LightArea area = areasInWorld(view.scene, view.nodes).front().value();
+    view.shadows.begin(view.geometry, view.scene.camera);
+    for (const Light& p : pointsOfArea(lamp, area, 16)) view.shadows.add(homogeneous(p), 1.0 / 16);
+    return {grey(view, view.shadows.read(ShadowFilter::EdgeStopping), lamp.position),
+            grey(view, tracedLevels(view, pointsOfArea(lamp, area, 1024)), lamp.position)};
+}
+
 Exhibit softCountedExhibit(const Task& task) {
     ExhibitBuilder builder(task.loader, task.id, task.builder());
     View view(task.loader, readScene(task.options.sceneFolder / "soft.json"), task.size(400), task.size(300));

@@ -51,6 +51,12 @@ Exhibit transferObjectsExhibit(const Task& task);
 /// counted_shadow_exhibits.cpp
 Exhibit countedShadowsExhibit(const Task& task);
 Exhibit softCountedExhibit(const Task& task);
+/// The share of a scene's first lamp that each pixel sees, as grey: of 16 points by counted volumes, smoothed, and of
+/// 1024 by rays. \param scene  its first light has an area
+struct ShadowStage {
+    Image drawn, truth;
+};
+ShadowStage shadowStage(ProgramLoader& loader, const SceneDescription& scene, int width, int height);
 
 /// environment_sweeps.cpp
 Exhibit ggxSweepExhibit(const Task& task);

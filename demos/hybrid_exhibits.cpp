@@ -80,6 +80,10 @@ Exhibit stages(const Task& task) {
     Exhibit e;
     builder.row("Stages, each beside the same stage by rays");
     builder.compared("direct light, shadows by volumes", std::move(drawn.direct), std::move(truth.direct));
+    ShadowStage shadow =
+        shadowStage(task.loader, withoutSpecular(readScene(task.options.sceneFolder / "glass-sphere.json")),
+                    task.size(320), task.size(320));
+    builder.compared("shadow: share of the lamp that is seen", std::move(shadow.drawn), std::move(shadow.truth));
     builder.compared("indirect light by 256 virtual lights", std::move(drawn.indirect), std::move(truth.indirect));
     builder.compared("traced: mirror and glass", std::move(drawn.traced), std::move(truth.traced));
     builder.row("Their sum");

@@ -26,6 +26,7 @@ public:
     std::optional<RaySceneHit> firstHit(const Vec3& from, const Vec3& direction) const;
     /// Whether something is between two points. \param castersAlone  of nodes that cast shadows
     bool blocked(const Vec3& from, const Vec3& to, bool castersAlone) const;
+    double skip() const { return skip_; }  ///< what rays pass over where they start [world units]
 
 private:
     struct Part {

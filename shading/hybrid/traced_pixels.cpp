@@ -114,7 +114,7 @@ std::vector<TracedEnd> SpecularTracer::follow(std::span<const SeenPoint> seen, i
             if (p.normal.w == 0) continue;
             const Vec3 place(p.place), along = scene_.camera.orthographic ? -backwards : glm::normalize(place - eye);
             // The buffer has no triangle's normal: one ray from just before the place finds it.
-            const double before = 1e-3 * glm::length(place - eye);
+            const double before = std::max(1e-3 * glm::length(place - eye), 3 * rays_.skip());
             const auto first = rays_.firstHit(place - before * along, along);
             if (first) followOne(static_cast<std::uint32_t>(pixel), *first, along, Rgb(1), depth, ends[row]);
         }

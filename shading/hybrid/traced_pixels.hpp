@@ -44,9 +44,9 @@ public:
     SpecularTracer(const SceneDescription& scene, const std::vector<glm::dmat4>& nodes,
                    std::vector<BrdfFunction> brdfs);
 
-    /// Paths from the tagged pixels of a view, which begin where the buffer says: no first ray is needed. Exact mirror
-    /// and refracted directions about interpolated normals, Fresnel, at most `depth` specular surfaces. No OpenGL: may
-    /// run beside drawing. \param seen  of the scene's camera, width a row
+    /// Paths from the tagged pixels of a view, which begin where the buffer says: a ray from just before that place
+    /// finds its triangle. Exact mirror and refracted directions about interpolated normals, Fresnel, at most `depth`
+    /// specular surfaces. No OpenGL: may run beside drawing. \param seen  of the scene's camera, width a row
     std::vector<TracedEnd> follow(std::span<const SeenPoint> seen, int width, int depth, unsigned threads = 0) const;
 
     /// Light of the tagged pixels, black elsewhere; three channels, row 0 on top. Ends on diffuse surfaces that the eye

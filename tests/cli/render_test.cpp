@@ -203,7 +203,7 @@ TEST(CommandRender, InStages) {
     EXPECT_GE(data["virtual_lights"]["clamped_share"], 0);
     EXPECT_GT(data["traced"]["pixels"], 100);
     EXPECT_GT(data["stage_seconds"]["virtual lights"], 0);
-    EXPECT_LT(data["errors"]["indirect"]["rms_over_mean"], 0.15) << "64 lights; the truth has 256 paths a pixel";
+    EXPECT_LT(data["errors"]["indirect"]["rms_over_mean"], 0.2) << "64 lights; the truth has 256 paths a pixel";
     EXPECT_LT(data["errors"]["traced"]["relative_rmse"], 0.05);
     EXPECT_GT(data["errors"]["blended"]["psnr"], 35);
     for (const char* stage : {"", "-direct", "-indirect", "-traced"})
