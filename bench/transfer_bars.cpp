@@ -75,7 +75,7 @@ std::vector<Bar> measureTransferBars(const std::vector<TransferMesh>& meshes, co
         if (kept != nullptr) kept->insert(kept->end(), found.begin(), found.end());
         const TransferMeasurement &f = found[0], &q = found[1], &m64 = found[2], &hemi = found[3];
         const double noise = f.noise;
-        if (&mesh == &nearest(meshes, kSmall)) {
+        if (std::abs(std::log(static_cast<double>(f.vertices) / kSmall)) < 0.2) {
             add(fastSpeed, f.verticesPerSecond() / 1e6, fmt::format("{}, {} vertices", mesh.name, f.vertices),
                 errorAndListed(f));
             addFrames(small, kSmall, f);

@@ -13,6 +13,7 @@ struct TransferMesh {
     std::string name;
     WeldedMesh mesh;
     std::vector<glm::vec3> rest;                 ///< the clip's first frame, by which levels are made
+    std::vector<std::vector<glm::vec3>> poses;   ///< motionPoses
     std::vector<std::vector<glm::vec3>> frames;  ///< three that are measured: after 1/6, 3/6 and 5/6 of the clip
 };
 
@@ -24,8 +25,9 @@ struct TransferMeshList {
 /// $NACRE_ANIMATED, else build/data/animated.
 std::filesystem::path animatedFolder();
 
-/// Cloth and chess, and of Debian's assimp-testmodels and the webxr-input-profiles the runner, dancer, fixer and hand,
-/// where they are somewhere in the folder. \param quick  the cloth, and the first file that is there
+/// Cloth, chess and a closed tube, and of Debian's assimp-testmodels and the webxr-input-profiles the runner, dancer,
+/// fixer and hand, where they are somewhere in the folder. \param quick  the cloth, and the first file that is
+/// there
 TransferMeshList transferMeshes(const std::filesystem::path& folder = animatedFolder(), bool quick = false);
 
 /// The same surface with each triangle cut into four at its edges' middles: about four times the vertices.

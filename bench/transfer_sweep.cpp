@@ -68,7 +68,7 @@ double wallSeconds() {
 
 SelfTransferOptions fastTransfer() {
     SelfTransferOptions options;
-    options.lodAngle = 0.6;
+    options.lodAngle = 0.5;
     return options;
 }
 
@@ -94,7 +94,7 @@ std::string text(const PaperMethodOptions& o) {
 }
 
 TransferContender ours(const TransferMesh& mesh, const SelfTransferOptions& options) {
-    const auto method = std::make_shared<SelfTransfer>(mesh.mesh, mesh.rest, options);
+    const auto method = std::make_shared<SelfTransfer>(mesh.mesh, mesh.rest, options, mesh.poses);
     return {"nacre", text(options), [method](std::span<const glm::vec3> p) { return method->compute(p); }};
 }
 

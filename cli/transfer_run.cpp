@@ -42,14 +42,15 @@ namespace {
 /// One of both methods.
 class Method {
 public:
-    Method(const WeldedMesh& mesh, std::span<const glm::vec3> rest, const TransferPlan& plan)
+    Method(const WeldedMesh& mesh, std::span<const glm::vec3> rest, const TransferPlan& plan,
+           std::span<const std::vector<glm::vec3>> poses)
         : sides_(plan.options.sides) {
         const SelfTransferOptions& o = plan.options;
         if (o.sides == BlockingSides::Auto) sides_ = mesh.closed ? BlockingSides::Front : BlockingSides::Both;
         if (plan.lut)
             paper_.emplace(mesh, rest, PaperMethodOptions{*plan.lut, o.rings, o.coarse, o.sides, true, o.threads});
         else
-            self_.emplace(mesh, rest, o);
+            self_.emplace(mesh, rest, o, poses);
     }
     /// \param gloss  of the recording; none: matt
     void shine(const std::optional<RecordedGloss>& gloss, const SelfTransferOptions& o) {
@@ -62,6 +63,7 @@ public:
         return paper_ ? paper_->compute(positions) : self_->compute(positions, {}, {}, {visible, {}});
     }
     const SelfTransfer& self() const { return *self_; }  ///< unless the paper's
+    std::size_t bytes() const { return self_ ? self_->bytes() : 0; }
     std::size_t coarseTriangles() const { return paper_ ? paper_->coarseTriangles() : self_->coarseTriangles(); }
 
     BlockingSides sides() const { return paper_ ? sides_ : self_->options().sides; }  ///< resolved
@@ -139,7 +141,7 @@ TransferRun runTransfer(const AnimatedMesh& animation, const TransferPlan& plan,
     out.weldOf = mesh.weldOf;
     out.triangles = mesh.triangles;
     const std::vector<glm::vec3> restPositions = weldedPositions(mesh, frameAt(rest));
-    Method transfer(mesh, restPositions, plan);
+    Method transfer(mesh, restPositions, plan, motionPoses(mesh, animation));
     if (plan.gloss) out.gloss = glossOf(*plan.gloss, animation, first, end);
     transfer.shine(out.gloss, plan.options);
     run.coarseTriangles = transfer.coarseTriangles();
@@ -170,6 +172,7 @@ TransferRun runTransfer(const AnimatedMesh& animation, const TransferPlan& plan,
         }
         out.frames.push_back({f.number, static_cast<int>(out.blocks.size()) - 1});
     }
+    run.bytes = transfer.bytes();
     if (run.computed > 0) {
         run.listed /= static_cast<double>(run.computed);
         run.drawn /= static_cast<double>(run.computed);

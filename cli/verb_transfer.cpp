@@ -126,7 +126,9 @@ json description(const Context& context, const Settings& s, const TransferRun& r
 json speedJson(const TransferRun& run, const Settings& s) {
     const TransferSeconds& t = run.seconds;
     const double frames = static_cast<double>(run.recording.blocks.size());
-    return {{"vertices_per_second", static_cast<double>(run.computed) / run.wallSeconds},
+    const std::size_t vertices = std::max<std::size_t>(run.recording.vertexCount(), 1);
+    return {{"memory", {{"bytes", run.bytes}, {"bytes_per_vertex", run.bytes / vertices}}},
+            {"vertices_per_second", static_cast<double>(run.computed) / run.wallSeconds},
             {"frames_per_second", frames / run.wallSeconds},
             {"compute_seconds", run.wallSeconds},
             {"vectors", s.vectors},
@@ -159,6 +161,9 @@ std::string text(const Settings& s, const TransferRun& run, const json& data) {
                        data["frames_per_second"].get<double>());
     out += fmt::format("  blockers    {:.1f} listed a vertex, {:.1f} drawn; coarsest level {} triangles, {} sides\n",
                        run.listed, run.drawn, run.coarseTriangles, nameOf(run.sides));
+    if (run.bytes > 0)
+        out += fmt::format("  memory      {} a vertex beside the tables\n",
+                           humanBytes(data["memory"]["bytes_per_vertex"].get<std::size_t>()));
     const TransferSeconds& t = run.seconds;
     const double all = std::max(t.rasterization + t.integration + t.transform + t.other, 1e-30);
     out += fmt::format(
@@ -288,7 +293,7 @@ std::vector<Option> options(const std::shared_ptr<Settings>& s) {
         {"--rings", "R", "The mesh itself blocks within so many rings of triangles, 1 or 2 (default 1; with --lut 2)",
          integerInto([s](long long v) { s->rings = static_cast<int>(v); }, 1, 2)},
         {"--coarse", "N",
-         "Triangles of the coarsest level of detail, about (default 150); 0: the mesh itself everywhere",
+         "Triangles of the coarsest level of detail, about (default 300); 0: the mesh itself everywhere",
          integerInto([s](long long v) { s->plan.options.coarse = static_cast<std::size_t>(v); }, 0, 1 << 30)},
         {"--lod-angle", "RAD",
          "A level is used where it is off by less, seen from the vertex (default 0.25: 1 to 2 % error; 0.6: about 3 %)",

@@ -254,6 +254,14 @@ BlockerLevels makeBlockerLevels(const WeldedMesh& mesh, std::span<const glm::vec
                 if (std::find(patch, patch + c, patch[c]) == patch + c)
                     out.patches[patch[c]].triangles[level].push_back(t);
         }
+    // A long triangle may lie over a patch without a corner in it: what stands for the patch's vertices belongs to it.
+    for (std::size_t level = 1; level + 1 < out.levels.size(); ++level)
+        for (BlockerLevels::Patch& patch : out.patches) {
+            std::vector<std::uint32_t>& triangles = patch.triangles[level];
+            for (const std::uint32_t v : patch.vertices) triangles.push_back(out.levels[level].triangleOf[v]);
+            std::sort(triangles.begin(), triangles.end());
+            triangles.erase(std::unique(triangles.begin(), triangles.end()), triangles.end());
+        }
     for (BlockerLevels::Patch& patch : out.patches) patch.nearest.resize(out.levels.size());
     for (std::size_t level = 1; level < out.levels.size(); ++level) {
         const std::vector<std::uint32_t> nearest = nearestVertices(out.levels[level], rest, parts);

@@ -14,11 +14,13 @@ bool allFinite(const std::vector<glm::vec3>& positions) {
     return std::all_of(positions.begin(), positions.end(), [](const glm::vec3& p) { return isFinite(Vec3(p)); });
 }
 
-SelfTransfer transferOf(WeldedMesh mesh, const std::vector<std::vector<glm::vec3>>& frames, const std::string& name,
+SelfTransfer transferOf(WeldedMesh mesh, const AnimatedMesh& animation,
+                        const std::vector<std::vector<glm::vec3>>& frames, const std::string& name,
                         const SelfTransferOptions& options) {
+    const std::vector<std::vector<glm::vec3>> poses = motionPoses(mesh, animation);
     const auto rest = std::find_if(frames.begin(), frames.end(), allFinite);
     if (rest == frames.end()) throw Error(fmt::format("{}: expected finite positions, found none in any frame", name));
-    return {std::move(mesh), *rest, options};
+    return {std::move(mesh), *rest, options, poses};
 }
 
 std::vector<std::vector<glm::vec3>> weldedFrames(const AnimatedMesh& animation, const WeldedMesh& mesh) {
@@ -33,7 +35,7 @@ LiveTransfer::LiveTransfer(const AnimatedMesh& animation, const std::string& nam
     : name_(name),
       framesPerSecond_(animation.framesPerSecond),
       frames_(weldedFrames(animation, weldMesh(animation, name))),
-      transfer_(transferOf(weldMesh(animation, name), frames_, name, options)) {}
+      transfer_(transferOf(weldMesh(animation, name), animation, frames_, name, options)) {}
 
 void LiveTransfer::show(std::size_t frame, const std::optional<Vec3>& eye) {
     require(frame < frames_.size(),

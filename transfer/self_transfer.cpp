@@ -118,22 +118,22 @@ SelfTransfer::State::State(WeldedMesh m, std::span<const glm::vec3> rest, const 
 }
 
 /// Vertices that need more blockers than others, dark ones and those that see backs, are in groups of their own.
-/// \param dark  [vertex] that gets little light at rest; empty: none. Errors count relative to the light that a vertex
-/// gets, so that these need finer blockers
+/// \param dark  [vertex] 1 that gets little light, 2 hardly any, else 0; empty: all 0. Errors count relative to
+/// the light that a vertex gets, so that these need finer blockers
 void SelfTransfer::State::makeGroups(std::span<const glm::vec3> rest, std::span<const std::uint8_t> dark) {
-    constexpr float kDarkAngle = 0.4f;  // of the other groups' angle
+    constexpr float kAngles[] = {1, 0.4f, 0.1f};  // of lodAngle
     const std::vector<glm::vec3> normals = vertexNormals(mesh.triangles, corners, rest);
     groups.clear();
     angles.clear();
     groupInside.clear();
-    for (const int kind : {0, 1, 2, 3}) {  // bits: dark, inside
+    for (int kind = 0; kind < 6; ++kind) {  // dark or not, times two: inside or not
         std::vector<glm::vec3> ofKind = normals;
         for (std::size_t v = 0; v < ofKind.size(); ++v)
-            if ((parts.inside[v] ? 2 : 0) + (!dark.empty() && dark[v] ? 1 : 0) != kind) ofKind[v] = glm::vec3(0);
+            if ((parts.inside[v] ? 3 : 0) + (dark.empty() ? 0 : dark[v]) != kind) ofKind[v] = glm::vec3(0);
         for (std::vector<std::uint32_t>& group : groupReceivers(rest, ofKind, kGroup)) {
             groups.push_back(std::move(group));
-            angles.push_back(static_cast<float>(options.lodAngle) * (kind & 1 ? kDarkAngle : 1));
-            groupInside.push_back(kind & 2 ? 1 : 0);
+            angles.push_back(static_cast<float>(options.lodAngle) * kAngles[kind % 3]);
+            groupInside.push_back(kind >= 3 ? 1 : 0);
         }
     }
     findNear();
@@ -308,22 +308,30 @@ GroupResult SelfTransfer::State::computeGroup(std::size_t group, std::span<const
     return result;
 }
 
-SelfTransfer::SelfTransfer(WeldedMesh mesh, std::span<const glm::vec3> rest, const SelfTransferOptions& options) {
+SelfTransfer::SelfTransfer(WeldedMesh mesh, std::span<const glm::vec3> rest, const SelfTransferOptions& options,
+                           std::span<const std::vector<glm::vec3>> poses) {
     require(options.rings == 1 || options.rings == 2, "transfer: expected 1 or 2 rings");
     require(std::isfinite(options.lodAngle) && options.lodAngle >= 0, "transfer: expected an angle of 0 or more");
     require(rest.size() == mesh.vertexCount(), "transfer: expected a position a vertex");
     state_ = std::make_unique<State>(std::move(mesh), rest, options);
     if (state_->levels.levelCount() == 1 || rest.empty()) return;
-    constexpr double kDark = 0.5;  // of an open vertex's light
+    constexpr double kDark = 0.5, kDarkest = 0.1;  // of an open vertex's light
     State& s = *state_;
     const std::vector<float> atRest = compute(rest).coefficients;
     if (s.parts.hasShells) {
         std::fill(s.parts.inside.begin(), s.parts.inside.end(), std::uint8_t{0});
         findInside(s.mesh, atRest, compute(rest).coefficients, s.open[0], s.parts);
     }
-    const std::size_t size = s.open.size() * s.open.size();
-    std::vector<std::uint8_t> dark;
-    for (std::size_t v = 0; v < rest.size(); ++v) dark.push_back(atRest[size * v] < kDark * s.open[0]);
+    std::vector<std::uint8_t> dark(rest.size(), 0);
+    const auto darken = [&](const std::vector<float>& coefficients) {
+        const std::size_t size = s.open.size() * s.open.size();
+        for (std::size_t v = 0; v < rest.size(); ++v) {
+            const double light = coefficients[size * v] / s.open[0];
+            dark[v] = std::max<std::uint8_t>(dark[v], light < kDarkest ? 2 : light < kDark ? 1 : 0);
+        }
+    };
+    darken(atRest);
+    for (const std::vector<glm::vec3>& pose : poses) darken(compute(pose).coefficients);
     s.makeGroups(rest, dark);
 }
 SelfTransfer::~SelfTransfer() = default;
@@ -335,6 +343,16 @@ std::size_t SelfTransfer::coarseTriangles() const { return state_->levels.coarse
 
 std::uint32_t SelfTransfer::groupCount() const { return static_cast<std::uint32_t>(state_->groups.size()); }
 std::uint32_t SelfTransfer::rowCount() const { return static_cast<std::uint32_t>(state_->levels.rowCount()); }
+
+std::size_t SelfTransfer::bytes() const {
+    const State& s = *state_;
+    const std::size_t vertices = s.mesh.vertexCount();
+    std::size_t sum = bytesOf(s.mesh.weldOf) + bytesOf(s.mesh.firstOf) + bytesOf(s.mesh.triangles) + s.corners.bytes() +
+                      s.levels.bytes() + bytesOf(s.parts.sheets) + bytesOf(s.parts.inside) + bytesOf(s.groups) +
+                      bytesOf(s.near) + bytesOf(s.nearPatches) + bytesOf(s.groupInside) + bytesOf(s.angles);
+    for (const std::unique_ptr<FrameBlockers>& blockers : s.spare) sum += blockers->bytes();
+    return sum + vertices * (2 * sizeof(glm::vec3) + s.open.size() * s.open.size() * sizeof(float));
+}
 
 std::uint64_t SelfTransfer::key() const {
     std::uint64_t hash = 0xcbf29ce484222325ull;  // FNV-1a by words

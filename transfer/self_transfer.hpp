@@ -14,7 +14,7 @@ struct SelfTransferOptions {
     int mask = 32;             ///< N of N × N bits: 16, 32, 64, 128
     int order = 4;             ///< highest band of harmonics, 0 to 6: (order + 1)² coefficients
     int rings = 1;             ///< within so many rings of triangles about a vertex the mesh itself blocks: 1 or 2
-    std::size_t coarse = 150;  ///< triangles of the coarsest level, about; 0 = the mesh itself everywhere
+    std::size_t coarse = 300;  ///< triangles of the coarsest level, about; 0 = the mesh itself everywhere
     double lodAngle =
         0.25;  ///< [rad] a level is used where it is off by less, seen from the vertex; less where it is dark
     BlockingSides sides = BlockingSides::Auto;
@@ -45,7 +45,9 @@ class SelfTransfer {
 public:
     /// \param rest  positions of a frame by which levels of detail and groups of vertices are made; finite
     /// \throws std::invalid_argument for options out of range
-    SelfTransfer(WeldedMesh mesh, std::span<const glm::vec3> rest, const SelfTransferOptions& options);
+    /// \param poses  of the motion, by which too it is known which vertices get little light and so need finer blockers
+    SelfTransfer(WeldedMesh mesh, std::span<const glm::vec3> rest, const SelfTransferOptions& options,
+                 std::span<const std::vector<glm::vec3>> poses = {});
     ~SelfTransfer();
     SelfTransfer(SelfTransfer&&) noexcept;
 
@@ -68,6 +70,9 @@ public:
     const SelfTransferOptions& options() const;  ///< Auto sides as most of the mesh has them
     std::size_t coarseTriangles() const;
     std::uint32_t groupCount() const, rowCount() const;
+    /// Kept beside the tables that all meshes share: the mesh, its levels and groups, the room of a frame (once one has
+    /// been computed) and its coefficients.
+    std::size_t bytes() const;
     std::uint64_t key() const;  ///< differs where sets of blockers mean something else: by mesh, rest and levels
 
 private:

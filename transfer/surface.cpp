@@ -126,6 +126,18 @@ std::vector<glm::vec3> weldedPositions(const WeldedMesh& mesh, std::span<const g
     return positions;
 }
 
+std::vector<std::vector<glm::vec3>> motionPoses(const WeldedMesh& mesh, const AnimatedMesh& animation) {
+    constexpr std::size_t kPoses = 5;
+    const std::size_t count = std::min(kPoses, animation.frames.size());
+    std::vector<std::vector<glm::vec3>> out;
+    for (std::size_t i = 0; i < count; ++i) {
+        const std::vector<glm::vec3>& frame = animation.frames[animation.frames.size() * i / count];
+        if (std::all_of(frame.begin(), frame.end(), [](const glm::vec3& p) { return isFinite(Vec3(p)); }))
+            out.push_back(weldedPositions(mesh, frame));
+    }
+    return out;
+}
+
 CornersOfVertices cornersOfVertices(std::span<const glm::uvec3> triangles, std::size_t vertices) {
     CornersOfVertices corners;
     corners.first.assign(vertices + 1, 0);

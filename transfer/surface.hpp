@@ -4,6 +4,7 @@
 #include <span>
 
 #include "core/animation.hpp"
+#include "transfer/memory.hpp"
 
 namespace nacre {
 
@@ -23,11 +24,15 @@ WeldedMesh weldMesh(const AnimatedMesh& animation, const std::string& name);
 /// One frame's positions by the welded numbers.
 std::vector<glm::vec3> weldedPositions(const WeldedMesh& mesh, std::span<const glm::vec3> frame);
 
+/// The same of up to five frames spread over the motion, those that are finite: what SelfTransfer takes as poses.
+std::vector<std::vector<glm::vec3>> motionPoses(const WeldedMesh& mesh, const AnimatedMesh& animation);
+
 /// The corners around each vertex: corner 3 t + c is triangle t's c-th. Those of v are order[first[v]] … order[first[v
 /// + 1]].
 struct CornersOfVertices {
     std::vector<std::uint32_t> first, order;
     std::vector<glm::uvec2> others;  ///< beside order: the triangle's other vertices, in its direction
+    std::size_t bytes() const { return bytesOf(first) + bytesOf(order) + bytesOf(others); }
 };
 CornersOfVertices cornersOfVertices(std::span<const glm::uvec3> triangles, std::size_t vertices);
 
