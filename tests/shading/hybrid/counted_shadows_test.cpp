@@ -3,8 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include "../gpu_evaluate.hpp"
 #include "core/light_area.hpp"
-#include "gpu_evaluate.hpp"
 #include "hybrid_fixture.hpp"
 #include "shading/primitives.hpp"
 #include "shading/scene_file.hpp"

@@ -3,8 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include "../gpu_evaluate.hpp"
 #include "factorize/models/models.hpp"
-#include "gpu_evaluate.hpp"
 #include "hybrid_fixture.hpp"
 
 namespace nacre {

@@ -3,8 +3,8 @@
 
 #include <gmock/gmock.h>
 
+#include "../gpu_evaluate.hpp"
 #include "core/error.hpp"
-#include "gpu_evaluate.hpp"
 #include "hybrid_fixture.hpp"
 #include "shading/hybrid/reflected_power.hpp"
 
