@@ -100,7 +100,8 @@ Exhibit countedShadowsExhibit(const Task& task) {
         {"5b-light-behind", "Figure 5b: the light is behind the eye"},
         {"6-eye-between", "Figure 6: the eye is between light and occluder"},
         {"7-under-a-table", "Figure 7: under a table"},
-        {"small-before-the-view", "What rays may miss: a small ball whose shadow is in a part of the view plane"},
+        {"small-before-the-view",
+         "A small ball whose shadow is in a part of the view plane: one ray misses it, 16 do not"},
     };
     ExhibitBuilder builder(task.loader, task.id, task.builder());
     const int size = task.size(240), fine = kSupersample * size;

@@ -31,9 +31,9 @@ public:
         renderer_.direct().switches.shadowMethod = ShadowMethod::Volumes;
     }
 
-    SceneComponents truth(int paths, const Progress& progress) const {
+    SceneComponents truth(int lightPoints, int paths, const Progress& progress) const {
         SceneTraceOptions options{.width = size_, .height = size_, .supersample = kSupersample};
-        options.lightPoints = 16;
+        options.lightPoints = lightPoints;
         options.interreflectionPaths = paths;
         options.progress = progress;
         return traceComponents(scene_, scene_.camera, truths_, options);
@@ -76,7 +76,7 @@ Exhibit stages(const Task& task) {
     options.traced = true;
     HybridPicture drawn = study.draw(options);
     const HybridReport report = study.report();
-    SceneComponents truth = study.truth(32, task.options.progress);
+    SceneComponents truth = study.truth(8, 32, task.options.progress);
     Exhibit e;
     builder.row("Stages, each beside the same stage by rays");
     builder.compared("direct light, shadows by volumes", std::move(drawn.direct), std::move(truth.direct));
@@ -109,7 +109,7 @@ Exhibit stages(const Task& task) {
 Exhibit virtualLights(const Task& task) {
     ExhibitBuilder builder(task.loader, task.id, task.builder());
     Study study(task, "cornell-box.json", task.size(240));
-    const Image truth = study.truth(48, task.options.progress).indirect;
+    const Image truth = study.truth(2, 64, task.options.progress).indirect;
     Exhibit e;
     e.table.head = {"lights", "choice", "shadow maps", "power left out", "clamped", "time"};
     const auto add = [&](const VirtualLightOptions& options) {
