@@ -40,13 +40,18 @@ nlohmann::json volumesJson(const ShadowVolumeCounts& c) {
             {"bytes_of_a_volume_a_polygon", c.bytesAPolygon}};
 }
 
+std::vector<Rgb> albedosOf(const SceneDescription& scene) {
+    std::vector<Rgb> out;
+    for (const MaterialTruth& m : openTruths(scene).materials)
+        out.push_back(m.brdf ? glm::min(directionalAlbedo(m.brdf, {std::sqrt(0.5), 0, std::sqrt(0.5)}), Rgb(0.99))
+                             : Rgb(0));
+    return out;
+}
+
 nlohmann::json addRadiosity(SceneRenderer& renderer, double time) {
     const Stopwatch watch;
     const SceneDescription& scene = renderer.scene();
-    std::vector<Rgb> albedos;
-    for (const MaterialTruth& m : openTruths(scene).materials)
-        albedos.push_back(m.brdf ? glm::min(directionalAlbedo(m.brdf, {std::sqrt(0.5), 0, std::sqrt(0.5)}), Rgb(0.99))
-                                 : Rgb(0));
+    const std::vector<Rgb> albedos = albedosOf(scene);
     const SceneRays rays(scene, nodeTransforms(scene, time));
     const Visible visible = [&](const Vec3& a, const Vec3& b) {
         const double length = glm::length(b - a);

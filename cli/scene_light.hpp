@@ -15,6 +15,9 @@ int qualityOf(const std::string& text);
 
 nlohmann::json volumesJson(const ShadowVolumeCounts& counts);
 
+/// Of each material's unbaked BRDF at 45 degrees, at most 0.99; 0 without one.
+std::vector<Rgb> albedosOf(const SceneDescription& scene);
+
 /// Gives the renderer light between the scene's meshes as they stand at `time`: albedos of the unbaked BRDFs at 45
 /// degrees, visibility by rays. \return  shots, the share of the power left unshot, seconds
 nlohmann::json addRadiosity(SceneRenderer& renderer, double time);

@@ -10,6 +10,7 @@
 #include "cli/output_file.hpp"
 #include "cli/pass_list.hpp"
 #include "cli/picture_output.hpp"
+#include "cli/render_hybrid.hpp"
 #include "cli/render_transfer.hpp"
 #include "cli/scene_errors.hpp"
 #include "cli/scene_light.hpp"
@@ -35,15 +36,16 @@ struct Settings {
     SceneSwitches switches;
     int quality = 0;
     bool reference = false, shares = false, asJson = false, passes = false;
+    HybridPictures hybrid;      ///< when the scene is drawn in stages
     TransferPictures transfer;  ///< when the scene is a transfer file
     std::string weights;
     std::string sceneFlag, transferFlag;  ///< the first option given that only scenes have, only transfer files
 };
 
 /// An option of one kind of file alone: notes in `flagGiven` that it was given.
-std::function<void(const std::string&)> only(std::string& flagGiven, const char* flag,
+std::function<void(const std::string&)> only(std::string& flagGiven, std::string flag,
                                              std::function<void(const std::string&)> take) {
-    return [&flagGiven, flag, take = std::move(take)](const std::string& text) {
+    return [&flagGiven, flag = std::move(flag), take = std::move(take)](const std::string& text) {
         if (flagGiven.empty()) flagGiven = flag;
         take(text);
     };
@@ -117,6 +119,15 @@ SceneSwitches switchesFor(const Settings& s, const SceneDescription& scene) {
     return out;
 }
 
+void runHybrid(const Context& context, const Settings& s, SceneDescription scene) {
+    if (s.shares || s.shot.interreflection)
+        throw UsageError("--indirect: expected neither --shares nor --radiosity beside it");
+    HybridPictures p = s.hybrid;
+    p.output = s.output, p.shot = s.shot, p.white = s.white, p.rays = s.rays, p.switches = s.switches;
+    p.reference = s.reference, p.asJson = s.asJson;
+    renderHybrid(context, std::move(scene), p);
+}
+
 void runRender(const Context& context, const Settings& s) {
     if (s.output.empty() && !s.passes) throw UsageError("--output: expected a name, found none");
     if (isTransferFile(s.scene)) return runTransferFile(context, s);
@@ -134,6 +145,7 @@ void runRender(const Context& context, const Settings& s) {
         endProgress();
         return putData(passList(scene, s.shot, atQuality(switchesFor(s, scene), s.quality), s.asJson));
     }
+    if (isHybrid(s.hybrid)) return runHybrid(context, s, std::move(scene));
     const SceneSwitches switches = switchesFor(s, scene);
     const nacre::Context gl(GlApi::Core33);
     ProgramLoader loader;
@@ -196,6 +208,9 @@ constexpr const char* kDetails =
     "reference; PSNR of both without it (BRDF: the reference takes the baked one); and the share of the mean "
     "square\n"
     "error that goes with it.\n"
+    "With --indirect virtual-lights or --specular traced a scene is drawn in stages: direct light, light that "
+    "surfaces\n"
+    "reflected once, mirrors and glass by rays on the processor. --reference then traces one such reflection.\n"
     "A file of nacre transfer holds its mesh: its frames are drawn by their vertices' radiance (albedo 1, back faces\n"
     "black) in the light of --env, turned and blended, with the first frame's white. With --reference the same\n"
     "vertices' transfer comes from rays.\n"
@@ -278,6 +293,10 @@ std::vector<Option> options(const std::shared_ptr<Settings>& s) {
         {"--white", "W", "Radiance shown as white in PNG", positiveInto([s](double v) { s->white = v; })},
         {"--reference", "", "Trace the same, and print the error", into(s->reference)}};
     for (Option& option : sceneOptions(s)) out.push_back(std::move(option));
+    for (Option& option : hybridOptions(s->hybrid)) {
+        option.take = only(s->sceneFlag, option.flags, std::move(option.take));
+        out.push_back(std::move(option));
+    }
     for (Option& option : transferOptions(s)) out.push_back(std::move(option));
     out.push_back({"--json", "", "One JSON object on standard output", into(s->asJson)});
     return out;

@@ -81,6 +81,12 @@ void ExhibitBuilder::panel(const std::string& label, std::function<void(const Re
         {label, halved(target.read()), truth.radiance, truth.coverage, nullptr, std::move(draw)});
 }
 
+void ExhibitBuilder::compared(const std::string& label, Image radiance, Image truth) {
+    Image mask(truth.width(), truth.height(), 1);
+    for (float& v : mask.data()) v = 1;
+    rows_.back().panels.push_back({label, std::move(radiance), std::move(truth), std::move(mask), nullptr, {}});
+}
+
 void ExhibitBuilder::picture(const std::string& label, Image radiance) {
     rows_.back().panels.push_back({label, std::move(radiance), {}, {}, nullptr, {}});
 }

@@ -48,6 +48,8 @@ public:
     /// Whatever draws, and the truth's picture of the same points (RaytraceOptions::supersample = kSupersample). Timed
     /// with the others.
     void panel(const std::string& label, std::function<void(const RenderTarget&)> draw, const RaytracedPicture& truth);
+    /// A picture that was drawn before, and its truth: both of one size. Not timed.
+    void compared(const std::string& label, Image radiance, Image truth);
     /// A picture as it is.
     void picture(const std::string& label, Image radiance);
     /// Compares inside the outline, encodes, times. \param white  radiance shown as white; 0 = the largest pictureWhite

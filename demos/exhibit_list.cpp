@@ -11,6 +11,7 @@ static std::vector<NamedExhibit> allExhibits() {
     out.insert(out.end(), specularExhibits().begin(), specularExhibits().end());
     out.insert(out.end(), lightPathExhibits().begin(), lightPathExhibits().end());
     out.insert(out.end(), multipassExhibits().begin(), multipassExhibits().end());
+    out.insert(out.end(), hybridExhibits().begin(), hybridExhibits().end());
     out.insert(out.end(), transferExhibits().begin(), transferExhibits().end());
     return out;
 }

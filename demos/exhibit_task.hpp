@@ -39,6 +39,7 @@ const std::vector<NamedExhibit>& specularExhibits();
 const std::vector<NamedExhibit>& lightPathExhibits();
 const std::vector<NamedExhibit>& transferExhibits();
 const std::vector<NamedExhibit>& multipassExhibits();
+const std::vector<NamedExhibit>& hybridExhibits();
 
 /// shadow_exhibits.cpp
 Exhibit shadowStudyExhibit(const Task& task);
@@ -47,6 +48,16 @@ Exhibit shadowStudyExhibit(const Task& task);
 Exhibit transferGlossExhibit(const Task& task);
 /// transfer_objects_exhibit.cpp
 Exhibit transferObjectsExhibit(const Task& task);
+
+/// counted_shadow_exhibits.cpp
+Exhibit countedShadowsExhibit(const Task& task);
+Exhibit softCountedExhibit(const Task& task);
+/// The share of a scene's first lamp that each pixel sees, as grey: of 16 points by counted volumes, smoothed, and of
+/// 1024 by rays. \param scene  its first light has an area
+struct ShadowStage {
+    Image drawn, truth;
+};
+ShadowStage shadowStage(ProgramLoader& loader, const SceneDescription& scene, int width, int height);
 
 /// environment_sweeps.cpp
 Exhibit ggxSweepExhibit(const Task& task);

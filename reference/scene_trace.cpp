@@ -139,16 +139,18 @@ public:
             const Rgb fog = followSpecular(scene_, surfaces_, rays_.at(x, y, k), path, [&](const PathEnd& end) {
                 if (!end.hit) {
                     for (std::size_t i = 0; i < sums.size(); ++i)
-                        sums[i] += end.share * background(parts_[i], end.direction);
+                        if (takes(parts_[i], end.specular)) sums[i] += end.share * background(parts_[i], end.direction);
                     return;
                 }
                 Point point = pointAt(*end.hit);
                 point.pixel = pixel;
                 point.ray = static_cast<unsigned>(k);
                 const Rgb share = end.share * end.texel;
-                for (std::size_t i = 0; i < sums.size(); ++i) sums[i] += share * radiance(point, parts_[i]);
+                for (std::size_t i = 0; i < sums.size(); ++i)
+                    if (takes(parts_[i], end.specular)) sums[i] += share * radiance(point, parts_[i]);
             });
-            for (Rgb& sum : sums) sum += fog;
+            for (std::size_t i = 0; i < sums.size(); ++i)  // of paths over specular surfaces alone
+                if (takes(parts_[i], true)) sums[i] += fog;
         }
         for (std::size_t i = 0; i < sums.size(); ++i) out[i].setRgb(x, y, sums[i] / double(rays_.samples()));
     }
@@ -174,6 +176,11 @@ private:
         std::optional<Blocked> blocked[2];  ///< without and with the relief's normal
         std::optional<Rgb> mirrorBlocked[2];
     };
+
+    static bool takes(const SceneParts& parts, bool specularFirst) {
+        return parts.firstSurface == SceneParts::FirstSurface::Any ||
+               (parts.firstSurface == SceneParts::FirstSurface::Specular) == specularFirst;
+    }
 
     Rgb background(const SceneParts& parts, const Vec3& direction) const {
         if (!parts.sky) return Rgb(0);
@@ -287,6 +294,7 @@ private:
 
     /// Light of lamps by way of other surfaces.
     Rgb interreflected(const Point& from, const SurfacePoint& frame, const SceneParts& parts) const {
+        const int bounces = parts.bounces > 0 ? parts.bounces : options_.interreflectionBounces;
         PixelSequence first = sequence(from, 3, options_.interreflectionPaths);
         Random random(options_.seed, from.pixel * static_cast<unsigned>(rays_.samples()) + from.ray, 5);
         Rgb sum(0);
@@ -294,7 +302,7 @@ private:
             Point at = from;
             SurfacePoint here = frame;
             Rgb carried(1);
-            for (int k = 0; k < options_.interreflectionBounces; ++k) {
+            for (int k = 0; k < bounces; ++k) {
                 if (!at.truth->brdf || !(glm::dot(here.normal, here.toEye) > 0)) break;
                 const Vec3 d = turnedTo(here.normal, cosineHemisphere(k == 0 ? first() : random.pair()));
                 carried *= at.truth->brdf(toLocal(here, d), toLocal(here, here.toEye)) * kPi;

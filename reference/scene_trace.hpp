@@ -19,7 +19,10 @@ struct SceneParts {
     bool sky = true;
     bool bakedBrdf = false;        ///< the baked BRDF in place of the unfactored one
     bool interreflection = false;  ///< light of lamps that other meshes reflected before, by their BRDFs
-    bool occlusion = false;        ///< surfaces block the surrounding's light (reflected and diffuse, not transmitted)
+    int bounces = 0;               ///< at most, of interreflection; 0: as SceneTraceOptions says
+    /// Rays whose first surface is specular, or all others: a picture's parts, whose sum is the picture.
+    enum class FirstSurface { Any, Specular, Other } firstSurface = FirstSurface::Any;
+    bool occlusion = false;  ///< surfaces block the surrounding's light (reflected and diffuse, not transmitted)
 };
 
 struct SceneTraceOptions {

@@ -28,10 +28,11 @@ public:
             fogLight += share * faded * fog.radiance;
             share *= 1 - faded;
         }
-        if (!hit) return end_({{}, along, share});
+        const bool later = left < options_.depth;
+        if (!hit) return end_({{}, along, share, Rgb(1), later});
         const auto material = static_cast<std::size_t>(scene_.nodes[hit->node].material);
         const std::optional<SceneSpecular>& specular = scene_.materials[material].specular;
-        if (!specular) return end_({hit, along, share});
+        if (!specular) return end_({hit, along, share, Rgb(1), later});
         SceneSpecular here = *specular;
         Rgb texel(1);
         if (here.texture) {
@@ -39,15 +40,16 @@ public:
             texel = Rgb(at);
             here.surface *= at.a;
         }
-        if (here.surface > 0) end_({hit, along, share * here.surface, texel});
+        if (here.surface > 0) end_({hit, along, share * here.surface, texel, true});
         if (left == 0) return;
+        const Vec3 normal = normalOf(*hit, along);
         const bool spreads = here.scatters();
         const int count = spreads && !split ? options_.spreadRays : 1;
-        if (here.roughness > 0) return followFacets(*hit, here, along, share / double(count), count, left);
-        for (const SpecularRay& next : specularRays(here, along, hit->plane))
+        if (here.roughness > 0) return followFacets(*hit, normal, here, along, share / double(count), count, left);
+        for (const SpecularRay& next : specularRays(here, along, normal))
             for (int i = 0; i < count; ++i) {
-                const Vec3 direction = spreads ? spread(next.direction, hit->plane, here.spread) : next.direction;
-                const double cosine = std::abs(glm::dot(direction, hit->plane));
+                const Vec3 direction = spreads ? spread(next.direction, normal, here.spread) : next.direction;
+                const double cosine = std::abs(glm::dot(direction, normal));
                 const Fog ahead{here.fog, here.fogDistance > 0 ? cosine / here.fogDistance : 0};
                 follow({hit->s.position, direction, rays_.skip(), std::numeric_limits<float>::max()},
                        share * next.share / double(count), left - 1, ahead, split || spreads);
@@ -55,11 +57,18 @@ public:
     }
 
 private:
+    /// The interpolated normal on the triangle's side, as curved surfaces need it; the triangle's own where the ray
+    /// sees those two from different sides, at outlines.
+    static Vec3 normalOf(const SceneRays::Hit& hit, const Vec3& along) {
+        const Vec3 smooth = glm::dot(hit.s.normal, hit.plane) < 0 ? -hit.s.normal : hit.s.normal;
+        return glm::dot(along, smooth) * glm::dot(along, hit.plane) > 0 ? smooth : hit.plane;
+    }
+
     /// Rays at facets of a rough surface: of Beckmann's distribution, with Smith's shadowing (Walter et al. 2007,
     /// equations 38 to 41).
-    void followFacets(const SceneRays::Hit& hit, const SceneSpecular& surface, const Vec3& along, const Rgb& share,
-                      int count, int left) {
-        const Vec3 n = glm::dot(along, hit.plane) > 0 ? -hit.plane : hit.plane;
+    void followFacets(const SceneRays::Hit& hit, const Vec3& normal, const SceneSpecular& surface, const Vec3& along,
+                      const Rgb& share, int count, int left) {
+        const Vec3 n = glm::dot(along, normal) > 0 ? -normal : normal;
         const double cosine = std::abs(glm::dot(along, n)), alpha = surface.roughness;
         const Vec3 x = glm::normalize(glm::cross(n, std::abs(n.y) < 0.5 ? Vec3(0, 1, 0) : Vec3(0, 0, 1)));
         for (int i = 0; i < count; ++i) {
@@ -69,7 +78,7 @@ private:
             const double facing = -glm::dot(along, facet);
             if (facing <= 0 || cosine == 0) continue;
             SceneSpecular flat = surface;  // as the facet is: seen from its front
-            if (flat.ior && n != hit.plane) flat.ior = 1 / *flat.ior;
+            if (flat.ior && n != normal) flat.ior = 1 / *flat.ior;
             for (const SpecularRay& next : specularRays(flat, along, facet)) {
                 const double ahead = glm::dot(next.direction, n);
                 if ((ahead > 0) != (glm::dot(next.direction, facet) > 0) || ahead == 0) continue;

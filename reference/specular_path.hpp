@@ -25,9 +25,10 @@ std::vector<SpecularRay> specularRays(const SceneSpecular& surface, const Vec3& 
 /// End of a path: on a surface, or where nothing is hit.
 struct PathEnd {
     std::optional<SceneRays::Hit> hit;
-    Vec3 direction;  ///< unit, of the last ray
-    Rgb share{1};    ///< of its light that reaches the eye
-    Rgb texel{1};    ///< factor of a specular surface's own light
+    Vec3 direction;         ///< unit, of the last ray
+    Rgb share{1};           ///< of its light that reaches the eye
+    Rgb texel{1};           ///< factor of a specular surface's own light
+    bool specular = false;  ///< the ray's first surface is specular
 };
 
 struct SpecularPathOptions {

@@ -2,6 +2,7 @@
 // lit.vert.glsl gives the mesh's vertices. Desktop OpenGL. One of, or none (Mesa 22 clips by a distance that is written,
 // enabled or not):
 //   NACRE_STENCIL_BEYOND_FAR  what is beyond the far plane alone
+//   NACRE_STENCIL_BEYOND_NEAR  what is beyond the near plane
 //   NACRE_VIEW                what is in front of a virtual viewpoint's clip plane, as lit.vert.glsl
 // and NACRE_STENCIL_CUT: what is in front of the mesh's cuts.
 #include "nacre/bind/model.glsl"
@@ -23,6 +24,9 @@ void main() {
     gl_Position = clip;
 #ifdef NACRE_STENCIL_BEYOND_FAR
     gl_ClipDistance[0] = clip.z - clip.w;
+#endif
+#ifdef NACRE_STENCIL_BEYOND_NEAR
+    gl_ClipDistance[0] = clip.z + clip.w;
 #endif
 #ifdef NACRE_VIEW
     gl_ClipDistance[0] = dot(nacre_view_clip, vec4(position, 1.0));

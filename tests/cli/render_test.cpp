@@ -176,6 +176,69 @@ TEST(CommandRender, ShadowsByVolumes) {
     }
 }
 
+TEST(CommandRender, InStages) {
+    const Scratch scratch;
+    writeFile(scratch / "room.json", R"({
+        "nacre_scene": 1,
+        "meshes": {"square": {"quad": {"size": 2}}, "ball": {"sphere": {"radius": 0.4}}},
+        "materials": {"matt": {"model": "lambert:kd=0.7/0.5/0.3"}, "glass": {"specular": {"ior": 1.5}}},
+        "nodes": {"floor": {"mesh": "square", "material": "matt", "translation": [0, -1, 0], "axis": [1, 0, 0], "angleDeg": -90},
+                  "back": {"mesh": "square", "material": "matt", "translation": [0, 0, -1]},
+                  "ball": {"mesh": "ball", "material": "glass", "translation": [0.2, -0.5, 0]}},
+        "lights": {"lamp": {"type": "point", "position": [0, 0.5, 0.5], "intensity": 3, "shadow": true}},
+        "camera": {"eye": [0.3, 0.4, 5], "target": [0, -0.2, 0], "fovYDeg": 30}
+    })");
+    const std::string scene = scratch / "room.json";
+    const Outcome run = nacre({"render",
+                               scene,
+                               "-o",
+                               scratch / "s.png",
+                               "--size",
+                               "64x64",
+                               "--samples",
+                               "2",
+                               "--rays",
+                               "2",
+                               "--shadows",
+                               "volumes",
+                               "--indirect",
+                               "virtual-lights",
+                               "--virtual-lights",
+                               "64",
+                               "--virtual-shadows",
+                               "--specular",
+                               "traced",
+                               "--stages",
+                               "--reference",
+                               "--json"});
+    ASSERT_EQ(run.code, 0) << run.err;
+    const json data = json::parse(run.out);
+    EXPECT_EQ(data["virtual_lights"]["lights"], 64);
+    EXPECT_GE(data["virtual_lights"]["clamped_share"], 0);
+    EXPECT_GT(data["traced"]["pixels"], 100);
+    EXPECT_GT(data["stage_seconds"]["virtual lights"], 0);
+    EXPECT_LT(data["errors"]["indirect"]["rms_over_mean"], 0.2) << "64 lights; the truth has 256 paths a pixel";
+    EXPECT_LT(data["errors"]["traced"]["relative_rmse"], 0.05);
+    EXPECT_GT(data["errors"]["blended"]["psnr"], 35);
+    for (const char* stage : {"", "-direct", "-indirect", "-traced"})
+        for (const char* what : {"", "-reference", "-difference"})
+            EXPECT_TRUE(std::filesystem::exists(scratch / (std::string("s") + stage + what + ".png"))) << stage << what;
+    EXPECT_EQ(nacre({"render", scene, "-o", scratch / "v.png"}).code, 1) << "views of planar mirrors alone";
+    const Outcome many =
+        nacre({"render", scene, "-o", scratch / "m.png", "--indirect", "virtual-lights", "--elements", "16777216"});
+    EXPECT_EQ(many.code, 1);
+    EXPECT_THAT(many.err, HasSubstr("item buffer: expected at most 16777215 elements, which 24 bits tell apart"));
+    EXPECT_FALSE(std::filesystem::exists(scratch / "m.png"));
+    for (const auto& [flag, words] : {std::pair{"--indirect", "virtual-lights"},
+                                      {"--specular", "views or traced"},
+                                      {"--virtual-choice", "grouped or strongest"},
+                                      {"--virtual-near", "rectangle, disk or point"}}) {
+        const Outcome wrong = nacre({"render", scene, "-o", scratch / "w.png", flag, "blurred"});
+        EXPECT_EQ(wrong.code, 2);
+        EXPECT_THAT(wrong.err, HasSubstr(words));
+    }
+}
+
 TEST(CommandRender, MeshFilesAndEmptyScenes) {
     const Scratch scratch;
     writeFile(scratch / "triangle.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");

@@ -216,6 +216,16 @@ std::vector<ProgramCase> programs() {
                    "stencil.frag.glsl",
                    {{}, {{"NACRE_STENCIL_CUT", "1"}}, {{"NACRE_STENCIL_BEYOND_FAR", "1"}}, {{"NACRE_VIEW", "1"}}},
                    true});
+    out.push_back({"item_buffer.vert.glsl", "item_buffer.frag.glsl", {{}}});
+    out.push_back({"lit.vert.glsl", "geometry.frag.glsl", {{}}});
+    out.push_back(
+        {"stencil_volume.vert.glsl", "counted_volume.frag.glsl", {{{"NACRE_STENCIL_BEYOND_NEAR", "1"}}}, true});
+    out.push_back({"fullscreen.vert.glsl", "counted_add.frag.glsl", {{}}});
+    out.push_back({"fullscreen.vert.glsl", "counted_mask.frag.glsl", {{}}});
+    out.push_back({"fullscreen.vert.glsl", "shadow_filter.frag.glsl", {{}, {{"NACRE_EDGE_STOPPING", "1"}}}});
+    for (const char* near : {"NACRE_VIRTUAL_POINT", "NACRE_VIRTUAL_DISK", "NACRE_VIRTUAL_RECTANGLE"})
+        out.push_back({"fullscreen.vert.glsl", "indirect.frag.glsl",
+                       combined({{{"NACRE_VIRTUAL_NEAR", near}}}, {{}, {{"NACRE_VIRTUAL_SHADOWS", "1"}}})});
     const std::vector<ShaderDefines> surroundings = environmentChoices();
     out.push_back({"lit.vert.glsl", "environment.frag.glsl", {surroundings.rbegin(), surroundings.rend()}});
     out.push_back({"sky.vert.glsl", "sky.frag.glsl", surroundings});

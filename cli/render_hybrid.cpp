@@ -1,0 +1,211 @@
+#include "cli/render_hybrid.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "cli/numbers.hpp"
+#include "cli/output_file.hpp"
+#include "cli/picture_output.hpp"
+#include "cli/scene_light.hpp"
+#include "cli/terminal.hpp"
+#include "reference/scene_components.hpp"
+#include "shading/context.hpp"
+#include "shading/image_output.hpp"
+
+namespace nacre::cli {
+namespace {
+
+using nlohmann::json;
+
+/// A picture's stages, as drawn and as traced.
+struct Stage {
+    std::string name;
+    Image drawn, traced;
+};
+
+/// Root mean square of the difference over the mean of the truth, colour channels pooled, in a mask or everywhere.
+double rmsOverMean(const Image& image, const Image& truth, const Image& mask) {
+    double squares = 0, total = 0, count = 0;
+    for (int y = 0; y < truth.height(); ++y)
+        for (int x = 0; x < truth.width(); ++x)
+            for (int c = 0; c < 3 && (mask.width() == 0 || mask.at(x, y, 0) == 1); ++c) {
+                squares += sqr(double(image.at(x, y, c)) - truth.at(x, y, c));
+                total += truth.at(x, y, c);
+                ++count;
+            }
+    return total > 0 ? std::sqrt(squares / count) / (total / count) : 0;
+}
+
+json reportJson(const HybridReport& report, const HybridPictures& p) {
+    json stages = json::object();
+    for (const PassTime& stage : report.stages) stages[stage.name] = stage.wallSeconds;
+    json out = {{"stage_seconds", stages}};
+    if (p.indirect)
+        out["virtual_lights"] = {{"elements", report.elements},
+                                 {"lights", report.lights},
+                                 {"left_out_share", report.leftOut},
+                                 {"clamped_share", report.clamped}};
+    if (p.traced)
+        out["traced"] = {
+            {"pixels", report.traced.pixels}, {"ends", report.traced.ends}, {"reused_share", report.traced.reused}};
+    return out;
+}
+
+/// Of pixels all of whose rays meet specular surfaces first.
+Image wholly(const Image& tagged) {
+    Image out = tagged;
+    for (float& share : out.data()) share = share == 1 ? 1.0f : 0.0f;
+    return out;
+}
+
+json compareStages(const SceneDescription& scene, const HybridPictures& p, std::vector<Stage>& stages,
+                   const Progress& progress) {
+    SceneTraceOptions options{.width = p.shot.width, .height = p.shot.height, .supersample = p.rays};
+    options.time = p.shot.time;
+    options.specularDepth = p.switches.specular.depth;
+    options.lightPoints = std::max(4, 64 / (p.rays * p.rays));  // a pixel has 64, and 256 paths
+    options.interreflectionPaths = std::max(16, 256 / (p.rays * p.rays));
+    options.progress = progress;
+    const Stopwatch watch;
+    SceneComponents truth = traceComponents(scene, scene.camera, openTruths(scene, 0, progress), options, p.indirect);
+    json out = {{"trace_seconds", watch.seconds()}};
+    for (Stage& stage : stages) {
+        const bool traced = stage.name == "traced";
+        stage.traced = std::move(stage.name == "direct"     ? truth.direct
+                                 : stage.name == "indirect" ? truth.indirect
+                                 : traced                   ? truth.traced
+                                                            : truth.blended);
+        const Image mask = traced ? wholly(truth.tagged) : Image();
+        json& errors = out[stage.name] = differenceJson(compareImages(stage.drawn, stage.traced, 1, mask));
+        errors["rms_over_mean"] = rmsOverMean(stage.drawn, stage.traced, mask);
+    }
+    return out;
+}
+
+std::string textOf(const json& data) {
+    std::string out = fmt::format("{}: {} x {} pixels\n", data["output"].get<std::string>(), data["width"].get<int>(),
+                                  data["height"].get<int>());
+    if (data.contains("virtual_lights")) {
+        const json& v = data["virtual_lights"];
+        out += fmt::format("{} virtual lights of {} elements, {:.1f} % of the power left out, {:.1f} % clamped\n",
+                           v["lights"].get<int>(), v["elements"].get<int>(), 100 * v["left_out_share"].get<double>(),
+                           100 * v["clamped_share"].get<double>());
+    }
+    if (data.contains("traced")) {
+        const json& t = data["traced"];
+        out += fmt::format("{} pixels traced, {} paths end, {:.1f} % of them in the picture\n", t["pixels"].get<int>(),
+                           t["ends"].get<int>(), 100 * t["reused_share"].get<double>());
+    }
+    for (const auto& [name, seconds] : data["stage_seconds"].items())
+        out += fmt::format("{:<16} {:8.3f} s\n", name, seconds.get<double>());
+    if (!data.contains("errors")) return out;
+    for (const auto& [name, e] : data["errors"].items())
+        if (e.is_object())
+            out += fmt::format("{:<10} PSNR {:6.2f} dB, relative RMSE {:.4f}, RMS/mean {:.4f}\n", name,
+                               e["psnr"].get<double>(), e["relative_rmse"].get<double>(),
+                               e["rms_over_mean"].get<double>());
+    return out;
+}
+
+}  // namespace
+
+HybridMaterials materialsOf(const SceneDescription& scene) {
+    HybridMaterials out;
+    for (const MaterialTruth& truth : openTruths(scene).materials)
+        out.brdfs.push_back(truth.bakedBrdf ? truth.bakedBrdf : truth.brdf);
+    out.albedos = albedosOf(scene);
+    return out;
+}
+
+bool isHybrid(const HybridPictures& p) { return p.indirect || p.traced; }
+
+std::vector<Option> hybridOptions(HybridPictures& p) {
+    return {
+        {"--indirect", "METHOD", "Add light that another surface reflected, by virtual-lights",
+         [&p](const std::string& text) {
+             if (text != "virtual-lights")
+                 throw UsageError(fmt::format("--indirect: expected virtual-lights, found '{}'", text));
+             p.indirect = true;
+         }},
+        {"--virtual-lights", "N", "At most so many (default 64)",
+         integerInto([&p](long long v) { p.lights.count = static_cast<int>(v); }, 1, 65536)},
+        {"--virtual-shadows", "", "Surfaces block virtual lights' light", into(p.lights.shadows)},
+        {"--virtual-choice", "CHOICE",
+         "grouped (default): lights stand for groups of elements; strongest: for those that reflect most, and the\n"
+         "rest is left out",
+         [&p](const std::string& text) {
+             if (text != "grouped" && text != "strongest")
+                 throw UsageError(fmt::format("--virtual-choice: expected grouped or strongest, found '{}'", text));
+             p.lights.choice = text == "grouped" ? VirtualLightChoice::Grouped : VirtualLightChoice::Strongest;
+         }},
+        {"--virtual-near", "SHAPE",
+         "Near by they are a rectangle (default), a disk or a point, which has a singularity",
+         [&p](const std::string& text) {
+             if (text != "rectangle" && text != "disk" && text != "point")
+                 throw UsageError(fmt::format("--virtual-near: expected rectangle, disk or point, found '{}'", text));
+             p.lights.near = text == "point"  ? NearLight::Point
+                             : text == "disk" ? NearLight::Disk
+                                              : NearLight::Rectangle;
+         }},
+        {"--elements", "N", "That surfaces are cut into, at least (default 32768)",
+         integerInto([&p](long long v) { p.lights.elements.least = static_cast<int>(v); }, 1, 1 << 24)},
+        {"--specular", "METHOD",
+         "Mirrors and panes by views (default; planar ones), or traced: rays on the CPU, curved ones too",
+         [&p](const std::string& text) {
+             if (text != "views" && text != "traced")
+                 throw UsageError(fmt::format("--specular: expected views or traced, found '{}'", text));
+             p.traced = text == "traced";
+         }},
+        {"--stages", "", "Write each stage beside the output, and with --reference its truth", into(p.stages)}};
+}
+
+void renderHybrid(const Context& context, SceneDescription scene, const HybridPictures& p) {
+    const Progress progress = terminalProgress(context.quiet);
+    const nacre::Context gl(GlApi::Core33);
+    ProgramLoader loader;
+    HybridRenderer renderer(loader, scene, materialsOf(scene));
+    renderer.direct().switches = p.switches;
+    report(progress, "drawing", 0);
+    const Stopwatch watch;
+    const int n = p.shot.samples;
+    HybridOptions options;
+    if (p.indirect) options.virtualLights = p.lights;
+    options.traced = p.traced;
+    const HybridPicture drawn = renderer.draw(n * p.shot.width, n * p.shot.height, options, p.shot.time);
+    json data = {{"output", p.output},
+                 {"width", p.shot.width},
+                 {"height", p.shot.height},
+                 {"samples", n},
+                 {"time", p.shot.time},
+                 {"seconds", watch.seconds()},
+                 {"cpu_seconds", watch.cpuSeconds()},
+                 {"renderer", gl.description()}};
+    data.update(reportJson(renderer.report(), p));
+    std::vector<Stage> stages{{"direct", shrunk(drawn.direct, n), {}}};
+    if (p.indirect) stages.push_back({"indirect", shrunk(drawn.indirect, n), {}});
+    if (renderer.report().traced.pixels > 0) stages.push_back({"traced", shrunk(drawn.traced, n), {}});
+    stages.push_back({"blended", shrunk(drawn.blended, n), {}});
+    const Stage& whole = stages.back();
+    const std::string ending = pictureEnding(p.output);
+    double white = p.white > 0 ? p.white : pictureWhite(whole.drawn);
+    writePicture(whole.drawn, p.output, white);  // before the trace: what can't be written fails now
+    if (p.reference) {
+        data["errors"] = compareStages(scene, p, stages, progress);
+        if (p.white <= 0) white = pictureWhite(whole.traced);
+        writePicture(whole.drawn, p.output, white);  // both with one white
+    }
+    endProgress();
+    for (const Stage& stage : stages) {
+        const bool last = &stage == &whole;
+        if (p.stages && !last) writePicture(stage.drawn, besideName(p.output, stage.name.c_str(), ending), white);
+        if (!p.reference || (!p.stages && !last)) continue;
+        const std::string prefix = last ? "" : stage.name + "-";
+        writePicture(stage.traced, besideName(p.output, (prefix + "reference").c_str(), ending), white);
+        writePng(differenceImage(stage.drawn, stage.traced, white, 0.2),
+                 besideName(p.output, (prefix + "difference").c_str(), ".png"));
+    }
+    putData(p.asJson ? data.dump(2) + "\n" : textOf(data));
+}
+
+}  // namespace nacre::cli

@@ -1,0 +1,34 @@
+// What `nacre render` does when a scene is drawn in stages (shading/hybrid/).
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "cli/scene_errors.hpp"
+#include "cli/verb.hpp"
+#include "shading/hybrid/hybrid_renderer.hpp"
+
+namespace nacre::cli {
+
+struct HybridPictures {
+    std::string output;
+    SceneShot shot;
+    double white = 0;  ///< 0: of the picture
+    int rays = 4;
+    SceneSwitches switches;
+    bool reference = false, asJson = false;
+    bool indirect = false;  ///< by virtual lights
+    bool traced = false;    ///< specular pixels
+    bool stages = false;    ///< each a picture beside the output
+    VirtualLightOptions lights;
+};
+
+/// Options that only such pictures have. \param p  outlives them
+std::vector<Option> hybridOptions(HybridPictures& p);
+
+bool isHybrid(const HybridPictures& p);
+
+/// Draws, writes and prints; with p.reference traces the same stages (reference/scene_components.hpp).
+void renderHybrid(const Context& context, SceneDescription scene, const HybridPictures& p);
+
+}  // namespace nacre::cli

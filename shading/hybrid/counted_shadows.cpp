@@ -1,0 +1,258 @@
+#include "shading/hybrid/counted_shadows.hpp"
+
+#include <epoxy/gl.h>
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "core/error.hpp"
+#include "core/sampling.hpp"
+#include "shading/context.hpp"
+#include "shading/draw.hpp"
+#include "shading/pass_state.hpp"
+
+namespace nacre {
+namespace {
+
+constexpr int kBits = 7;  ///< of the stencil's g-count; the eighth is a borrow, which capped volumes never have
+
+const void* offset(std::size_t indices) { return reinterpret_cast<const void*>(indices * sizeof(std::uint32_t)); }
+
+void makeTarget(std::optional<FramebufferName>& framebuffer, std::optional<TextureName>& texture, int width, int height,
+                GlName depth) {
+    framebuffer.emplace();
+    texture.emplace();
+    glBindTexture(GL_TEXTURE_2D, texture->name());
+    glTexImage2D(GL_TEXTURE_2D, 0, GL_R32F, width, height, 0, GL_RED, GL_FLOAT, nullptr);
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAX_LEVEL, 0);
+    glBindTexture(GL_TEXTURE_2D, 0);
+    glBindFramebuffer(GL_FRAMEBUFFER, framebuffer->name());
+    glFramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, texture->name(), 0);
+    if (depth != 0) glFramebufferRenderbuffer(GL_FRAMEBUFFER, GL_DEPTH_STENCIL_ATTACHMENT, GL_RENDERBUFFER, depth);
+    const GLenum status = glCheckFramebufferStatus(GL_FRAMEBUFFER);
+    glBindFramebuffer(GL_FRAMEBUFFER, 0);
+    checkGl("making a target of counted shadows");
+    if (status != GL_FRAMEBUFFER_COMPLETE)
+        throw Error(fmt::format("counted shadows: expected a complete framebuffer, found status 0x{:04x}", status));
+}
+
+void fullscreenState(GlName framebuffer) {
+    glBindFramebuffer(GL_FRAMEBUFFER, framebuffer);
+    glDisable(GL_DEPTH_TEST);
+    glDisable(GL_CULL_FACE);
+}
+
+/// A volume's points and lists, for one draw: the object's silhouettes change with each of a light's points.
+class DrawnVolume {
+public:
+    DrawnVolume(const ShadowMesh& mesh, const ShadowVolume& volume) : volume_(volume) {
+        std::vector<glm::vec4> points;
+        for (const glm::vec3& p : mesh.positions) points.insert(points.end(), {glm::vec4(p, 0), glm::vec4(p, 1)});
+        glBindVertexArray(array_.name());
+        glBindBuffer(GL_ARRAY_BUFFER, points_.name());
+        glBufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(points.size() * sizeof(glm::vec4)), points.data(),
+                     GL_STREAM_DRAW);
+        glEnableVertexAttribArray(0);
+        glVertexAttribPointer(0, 4, GL_FLOAT, GL_FALSE, sizeof(glm::vec4), nullptr);
+        glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, indices_.name());
+        glBufferData(GL_ELEMENT_ARRAY_BUFFER, static_cast<GLsizeiptr>(volume.bytes()), volume.indices.data(),
+                     GL_STREAM_DRAW);
+        glBindBuffer(GL_ARRAY_BUFFER, 0);
+    }
+    ~DrawnVolume() { glBindVertexArray(0); }
+    DrawnVolume(const DrawnVolume&) = delete;
+    DrawnVolume& operator=(const DrawnVolume&) = delete;
+
+    void drawSides() const {
+        for (const ShadowVolume::Sides& s : volume_.sides)
+            for (int i = 0; i < s.times; ++i)
+                glDrawElements(GL_TRIANGLES, static_cast<GLsizei>(s.count), GL_UNSIGNED_INT, offset(s.first));
+    }
+
+    /// An end is left through its inner side. Far ones are seen turned over: from where the light is.
+    void drawEnds(bool far) const {
+        const std::size_t first = volume_.indices.size() - volume_.caps - volume_.capsTurned;
+        for (const bool turned : {false, true}) {
+            const std::uint32_t count = turned ? volume_.capsTurned : volume_.caps;
+            glFrontFace(turned != far ? GL_CW : GL_CCW);
+            if (count > 0)
+                glDrawElementsBaseVertex(GL_TRIANGLES, static_cast<GLsizei>(count), GL_UNSIGNED_INT,
+                                         offset(first + (turned ? volume_.caps : 0)), far ? 1 : 0);
+        }
+        glFrontFace(GL_CCW);
+    }
+
+private:
+    const ShadowVolume& volume_;
+    VertexArray array_;
+    Buffer points_, indices_;
+};
+
+}  // namespace
+
+CountedShadows::CountedShadows(ProgramLoader& loader, const SceneDescription& scene,
+                               const std::vector<glm::dmat4>& nodes)
+    : loader_(loader), rays_(scene, nodes), nodes_(scene.nodes.size()) {
+    for (std::size_t i = 0; i < scene.nodes.size(); ++i) {
+        const SceneNode& node = scene.nodes[i];
+        if (node.mesh < 0 || !node.castsShadow) continue;
+        ShadowMesh shape =
+            makeShadowMesh(transformed(scene.meshes[static_cast<std::size_t>(node.mesh)].mesh, nodes.at(i)));
+        if (!shape.triangles.empty()) objects_.push_back({std::move(shape), i});
+    }
+}
+
+void CountedShadows::allocate(const GeometryBuffer& geometry) {
+    width_ = geometry.width(), height_ = geometry.height();
+    makeTarget(counting_, count_, width_, height_, geometry.depthBuffer());
+    makeTarget(adding_, sum_, width_, height_, 0);
+    makeTarget(filtering_, filtered_, width_, height_, 0);
+}
+
+void CountedShadows::begin(const GeometryBuffer& geometry, const Camera& camera) {
+    if (geometry_ != &geometry || width_ != geometry.width() || height_ != geometry.height()) allocate(geometry);
+    geometry_ = &geometry;
+    step_ = 0;
+    worldToClip_ = camera.projection(double(width_) / height_) * camera.view();
+    const GLfloat zero[] = {0, 0, 0, 0};
+    glBindFramebuffer(GL_FRAMEBUFFER, adding_->name());
+    glClearBufferfv(GL_COLOR, 0, zero);
+    glBindFramebuffer(GL_FRAMEBUFFER, 0);
+}
+
+/// Nodes that are met on the way from some points of the view plane to the light.
+std::vector<bool> CountedShadows::taggedNodes(const Vec4& light, int points) const {
+    const std::vector<Vec3> window = nearWindow(glm::inverse(worldToClip_));  // corners in turn
+    std::vector<bool> out(nodes_, false);
+    for (int i = 0; i < points; ++i) {
+        const Vec3 u = halton3(static_cast<std::uint64_t>(i) + 1);
+        Vec3 from = glm::mix(glm::mix(window[0], window[1], u.x), glm::mix(window[3], window[2], u.x), u.y);
+        const bool near = light.w != 0;
+        double left = near ? glm::length(Vec3(light) / light.w - from) : 1e300;
+        const Vec3 along = near ? (Vec3(light) / light.w - from) / left : glm::normalize(Vec3(light));
+        while (const auto hit = rays_.firstHit(from, along)) {
+            left -= glm::length(hit->place - from);
+            if (left <= 0) break;
+            out[hit->node] = true;
+            from = hit->place;
+        }
+    }
+    return out;
+}
+
+void CountedShadows::draw(const Object& object, const Vec4& light, bool counted, bool caps) {
+    const ShadowVolume volume = makeShadowVolume(object.shape, glm::dmat4(1), light);
+    if (volume.indices.empty()) return;
+    const DrawnVolume drawn(object.shape, volume);
+    glStencilMask(counted ? ~0u : 0);
+    glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
+    drawn.drawSides();
+    if (!caps) return;
+    ++capped_;
+    glColorMask(GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
+    drawn.drawEnds(false);
+    if (volume.farCap) drawn.drawEnds(true);
+}
+
+/// Adds the g-count, bit by bit; counts below 0, of volumes without ends, as 0.
+void CountedShadows::addStencil() {
+    const Program& program = loader_.load("fullscreen.vert.glsl", "counted_add.frag.glsl");
+    fullscreenState(counting_->name());
+    glStencilOp(GL_KEEP, GL_KEEP, GL_KEEP);
+    const VertexArray empty;
+    for (int bit = 0; bit < kBits; ++bit) {
+        glStencilFunc(GL_EQUAL, 1 << bit, static_cast<GLuint>((1 << bit) | (1 << kBits)));
+        program.set("nacre_counted_value", static_cast<float>(1 << bit));
+        drawFullscreen(empty);
+    }
+}
+
+void CountedShadows::add(const Vec4& light, double weight, const CountedShadowOptions& options) {
+    require(geometry_ != nullptr, "counted shadows: expected begin before add");
+    require(options.planePoints >= 1, "counted shadows: expected at least one point of the view plane");
+    const std::vector<bool> tagged = options.capping == VolumeCapping::Approximate
+                                         ? taggedNodes(light, options.planePoints)
+                                         : std::vector<bool>(nodes_, options.capping == VolumeCapping::Exact);
+    const Program& volume =
+        loader_.load("stencil_volume.vert.glsl", "counted_volume.frag.glsl", {{"NACRE_STENCIL_BEYOND_NEAR", "1"}});
+    volume.set("nacre_world_to_clip", glm::mat4(worldToClip_));
+    volume.set("nacre_stencil_light", glm::vec4(light));
+    setModel(volume, glm::dmat4(1));
+    glBindFramebuffer(GL_FRAMEBUFFER, counting_->name());
+    glViewport(0, 0, width_, height_);
+    const GLfloat zero[] = {0, 0, 0, 0};
+    const GLint none = 0;
+    glStencilMask(~0u);
+    glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
+    glClearBufferfv(GL_COLOR, 0, zero);
+    glClearBufferiv(GL_STENCIL, 0, &none);
+    glEnable(GL_DEPTH_TEST);
+    glDepthFunc(GL_LESS);
+    glDepthMask(GL_FALSE);
+    glEnable(GL_DEPTH_CLAMP);  // sides go on beyond the far plane
+    glEnable(GL_CLIP_DISTANCE0);
+    glDisable(GL_CULL_FACE);
+    glEnable(GL_STENCIL_TEST);
+    glStencilFunc(GL_ALWAYS, 0, ~0u);
+    glStencilOpSeparate(GL_FRONT, GL_KEEP, GL_DECR_WRAP, GL_DECR_WRAP);
+    glStencilOpSeparate(GL_BACK, GL_KEEP, GL_INCR_WRAP, GL_INCR_WRAP);
+    glEnable(GL_BLEND);
+    glBlendFunc(GL_ONE, GL_ONE);
+    capped_ = 0;
+    const bool open = options.capping == VolumeCapping::None;
+    for (const Object& object : objects_) draw(object, light, open || tagged[object.node], tagged[object.node]);
+    glStencilMask(~0u);
+    glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
+    glDisable(GL_CLIP_DISTANCE0);
+    glDisable(GL_DEPTH_CLAMP);
+    addStencil();
+    glDisable(GL_STENCIL_TEST);
+    step_ = std::max(step_, weight);
+    const Program& mask = loader_.load("fullscreen.vert.glsl", "counted_mask.frag.glsl");
+    fullscreenState(adding_->name());
+    glActiveTexture(GL_TEXTURE0);
+    glBindTexture(GL_TEXTURE_2D, count_->name());
+    mask.set("nacre_counted_image", 0);
+    mask.set("nacre_counted_value", static_cast<float>(weight));
+    drawFullscreen(VertexArray());
+    glBindTexture(GL_TEXTURE_2D, 0);
+    glDisable(GL_BLEND);
+    glEnable(GL_DEPTH_TEST);
+    glDepthMask(GL_TRUE);
+    glBindFramebuffer(GL_FRAMEBUFFER, 0);
+    checkGl("counting shadows");
+}
+
+Image CountedShadows::read(ShadowFilter filter) {
+    require(geometry_ != nullptr, "counted shadows: expected begin before read");
+    if (filter != ShadowFilter::None) {
+        const Program& program = loader_.load(
+            "fullscreen.vert.glsl", "shadow_filter.frag.glsl",
+            filter == ShadowFilter::EdgeStopping ? ShaderDefines{{"NACRE_EDGE_STOPPING", "1"}} : ShaderDefines{});
+        geometry_->bind(program);
+        glActiveTexture(GL_TEXTURE3);
+        glBindTexture(GL_TEXTURE_2D, sum_->name());
+        program.set("nacre_counted_image", 3);
+        program.set("nacre_counted_value", static_cast<float>(step_));
+        fullscreenState(filtering_->name());
+        glViewport(0, 0, width_, height_);
+        drawFullscreen(VertexArray());
+        glEnable(GL_DEPTH_TEST);
+    }
+    std::vector<float> values(static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_));
+    glBindFramebuffer(GL_FRAMEBUFFER, (filter == ShadowFilter::None ? adding_ : filtering_)->name());
+    glPixelStorei(GL_PACK_ALIGNMENT, 1);
+    glReadPixels(0, 0, width_, height_, GL_RED, GL_FLOAT, values.data());
+    glBindFramebuffer(GL_FRAMEBUFFER, 0);
+    checkGl("reading counted shadows");
+    Image out(width_, height_, 1);
+    for (int y = 0; y < height_; ++y)
+        for (int x = 0; x < width_; ++x)
+            out.at(x, height_ - 1 - y, 0) =
+                values[static_cast<std::size_t>(y) * static_cast<std::size_t>(width_) + static_cast<std::size_t>(x)];
+    return out;
+}
+
+}  // namespace nacre
