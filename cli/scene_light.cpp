@@ -7,6 +7,7 @@
 #include "reference/albedo.hpp"
 #include "reference/scene_rays.hpp"
 #include "reference/scene_truths.hpp"
+#include "shading/multipass/quality.hpp"
 #include "shading/multipass/radiosity.hpp"
 
 namespace nacre::cli {
@@ -22,6 +23,14 @@ SoftShadows softShadowsOf(const std::string& text) {
     if (text == "pivot") return SoftShadows::Pivot;
     if (text == "levels") return SoftShadows::Levels;
     throw UsageError(fmt::format("--soft: expected regenerated, pivot or levels, found '{}'", text));
+}
+
+int qualityOf(const std::string& text) {
+    try {
+        return qualityFromString(text);
+    } catch (const std::invalid_argument& error) {
+        throw UsageError(fmt::format("--quality: {}", error.what()));
+    }
 }
 
 nlohmann::json volumesJson(const ShadowVolumeCounts& c) {

@@ -8,9 +8,10 @@
 
 namespace nacre::cli {
 
-/// Words of --shadows and --soft. \throws UsageError that lists them
+/// Words of --shadows, --soft and --quality. \throws UsageError that lists them
 ShadowMethod shadowMethodOf(const std::string& text);
 SoftShadows softShadowsOf(const std::string& text);
+int qualityOf(const std::string& text);
 
 nlohmann::json volumesJson(const ShadowVolumeCounts& counts);
 

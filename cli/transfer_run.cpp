@@ -62,6 +62,7 @@ public:
         return paper_ ? paper_->compute(positions) : self_->compute(positions, {}, {}, {visible, {}});
     }
     const SelfTransfer& self() const { return *self_; }  ///< unless the paper's
+    std::size_t bytes() const { return self_ ? self_->bytes() : 0; }
     std::size_t coarseTriangles() const { return paper_ ? paper_->coarseTriangles() : self_->coarseTriangles(); }
 
     BlockingSides sides() const { return paper_ ? sides_ : self_->options().sides; }  ///< resolved
@@ -170,6 +171,7 @@ TransferRun runTransfer(const AnimatedMesh& animation, const TransferPlan& plan,
         }
         out.frames.push_back({f.number, static_cast<int>(out.blocks.size()) - 1});
     }
+    run.bytes = transfer.bytes();
     if (run.computed > 0) {
         run.listed /= static_cast<double>(run.computed);
         run.drawn /= static_cast<double>(run.computed);

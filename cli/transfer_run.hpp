@@ -20,6 +20,7 @@ struct TransferRun {
     TransferSeconds seconds;        ///< of all threads together
     double listed = 0, drawn = 0;   ///< blockers a vertex, mean
     std::size_t coarseTriangles = 0;
+    std::size_t bytes = 0;  ///< SelfTransfer::bytes; 0: the paper's method
     bool closed = false;
     BlockingSides sides = BlockingSides::Auto;
     struct Sets {

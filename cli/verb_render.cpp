@@ -18,6 +18,7 @@
 #include "core/error.hpp"
 #include "shading/context.hpp"
 #include "shading/image_output.hpp"
+#include "shading/multipass/quality.hpp"
 #include "shading/scene_file.hpp"
 
 namespace nacre::cli {
@@ -32,6 +33,7 @@ struct Settings {
     int rays = 4;
     std::optional<int> lightPaths;
     SceneSwitches switches;
+    int quality = 0;
     bool reference = false, shares = false, asJson = false, passes = false;
     TransferPictures transfer;  ///< when the scene is a transfer file
     std::string weights;
@@ -130,13 +132,13 @@ void runRender(const Context& context, const Settings& s) {
     SceneDescription scene = readScene(s.scene, reading);
     if (s.passes) {
         endProgress();
-        return putData(passList(scene, s.shot, switchesFor(s, scene), s.asJson));
+        return putData(passList(scene, s.shot, atQuality(switchesFor(s, scene), s.quality), s.asJson));
     }
     const SceneSwitches switches = switchesFor(s, scene);
     const nacre::Context gl(GlApi::Core33);
     ProgramLoader loader;
     SceneRenderer renderer(loader, std::move(scene));
-    renderer.switches = switches;
+    renderer.switches = atQuality(switches, s.quality);
     json radiosity;
     if (s.shot.interreflection) {
         report(progress, "radiosity", 0);
@@ -152,10 +154,13 @@ void runRender(const Context& context, const Settings& s) {
                  {"samples", s.shot.samples},
                  {"time", s.shot.time},
                  {"seconds", seconds},
+                 {"quality", qualityName(s.quality)},
+                 {"specular_views", renderer.schedule().views.size() - 1},
+                 {"passes", renderer.schedule().passes.size()},
                  {"programs", renderer.programs().size()},
                  {"renderer", gl.description()}};
     if (s.shot.interreflection) data["radiosity"] = radiosity;
-    if (!renderer.schedule().faces.empty()) data["passes"] = passCountsJson(renderer.schedule());
+    data["light_paths"] = lightCountsJson(renderer.schedule());
     if (s.switches.shadowMethod == ShadowMethod::Volumes || !renderer.schedule().lights.empty())
         data["shadow_volumes"] = volumesJson(renderer.shadowVolumes());
     double white = s.white > 0 ? s.white : pictureWhite(picture);
@@ -163,6 +168,7 @@ void runRender(const Context& context, const Settings& s) {
                                    s.shot.height, s.shot.samples * s.shot.samples, renderer.programs().size());
     writePicture(picture, s.output, white);  // before the trace: what can't be written fails now
     if (s.reference || s.shares) {
+        renderer.switches = switches;  // whatever the quality, against all
         const SceneErrors errors = measureScene(renderer, picture, s.shot, s.rays, s.shares, progress);
         if (s.white == 0) white = errors.white;
         writePicture(errors.reference, besideName(s.output, "reference", ending), white);
@@ -208,6 +214,11 @@ std::vector<Option> sceneOptions(const std::shared_ptr<Settings>& s) {
          "Mirrors and panes along a path from a light that has shadows, 0 to 4 (default 2; 0 with voxel volumes)",
          only(s->sceneFlag, "--light-paths",
               integerInto([s](long long v) { s->lightPaths = static_cast<int>(v); }, 0, kMostLightBounces))},
+        {"--quality", "LEVEL",
+         "full (default), high, medium, low or least: how deep mirrors and panes go, whether glass reflects, samples "
+         "of\n"
+         "frosted faces and of lights' areas",
+         only(s->sceneFlag, "--quality", [s](const std::string& text) { s->quality = qualityOf(text); })},
         {"--passes", "", "Print the passes that draw a scene, and draw nothing",
          only(s->sceneFlag, "--passes", into(s->passes))},
         {"--rays", "N", "Of a scene's reference: N x N rays a pixel (default 4)",

@@ -126,7 +126,9 @@ json description(const Context& context, const Settings& s, const TransferRun& r
 json speedJson(const TransferRun& run, const Settings& s) {
     const TransferSeconds& t = run.seconds;
     const double frames = static_cast<double>(run.recording.blocks.size());
-    return {{"vertices_per_second", static_cast<double>(run.computed) / run.wallSeconds},
+    const std::size_t vertices = std::max<std::size_t>(run.recording.vertexCount(), 1);
+    return {{"memory", {{"bytes", run.bytes}, {"bytes_per_vertex", run.bytes / vertices}}},
+            {"vertices_per_second", static_cast<double>(run.computed) / run.wallSeconds},
             {"frames_per_second", frames / run.wallSeconds},
             {"compute_seconds", run.wallSeconds},
             {"vectors", s.vectors},
@@ -159,6 +161,9 @@ std::string text(const Settings& s, const TransferRun& run, const json& data) {
                        data["frames_per_second"].get<double>());
     out += fmt::format("  blockers    {:.1f} listed a vertex, {:.1f} drawn; coarsest level {} triangles, {} sides\n",
                        run.listed, run.drawn, run.coarseTriangles, nameOf(run.sides));
+    if (run.bytes > 0)
+        out += fmt::format("  memory      {} a vertex beside the tables\n",
+                           humanBytes(data["memory"]["bytes_per_vertex"].get<std::size_t>()));
     const TransferSeconds& t = run.seconds;
     const double all = std::max(t.rasterization + t.integration + t.transform + t.other, 1e-30);
     out += fmt::format(

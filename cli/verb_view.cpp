@@ -82,6 +82,8 @@ Verb viewVerb(Context&) {
         {"--reference-passes", "N", "Samples a pixel of the reference (default 16)", pass("--reference-passes")},
         {"--reference-scale", "N", "The reference has 1/N of the picture's edges (default 2)",
          pass("--reference-scale")},
+        {"--target-ms", "MS", "Of a frame while the picture moves: quality gives way, and comes back at rest",
+         pass("--target-ms")},
         {"--no-panel", "", "Without the panel (Tab brings it)", passFlag("--no-panel")},
         {"--benchmark", "N", "Draw N frames, print their times as JSON, and close", pass("--benchmark")},
         {"--trace", "", "One JSON line on standard output for each frame shown", passFlag("--trace")}};

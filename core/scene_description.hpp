@@ -78,6 +78,11 @@ struct SceneSpecular {
     double fogDistance = 0;
     /// Frosted or glossy: the slopes of directions against the normal are off by a Gaussian of this deviation (MPR 3).
     double spread = 0;
+    /// Or a rough face, of microfacets of Beckmann's distribution with this α; views are sheared as its facets turn
+    /// rays.
+    double roughness = 0;
+
+    bool scatters() const { return spread > 0 || roughness > 0; }
 };
 
 /// What a surface is made of. Any subset: each member that is set adds its light.

@@ -41,8 +41,9 @@ public:
         }
         if (here.surface > 0) end_({hit, along, share * here.surface, texel});
         if (left == 0) return;
-        const bool spreads = here.spread > 0;
+        const bool spreads = here.scatters();
         const int count = spreads && !split ? options_.spreadRays : 1;
+        if (here.roughness > 0) return followFacets(*hit, here, along, share / double(count), count, left);
         for (const SpecularRay& next : specularRays(here, along, hit->plane))
             for (int i = 0; i < count; ++i) {
                 const Vec3 direction = spreads ? spread(next.direction, hit->plane, here.spread) : next.direction;
@@ -54,6 +55,41 @@ public:
     }
 
 private:
+    /// Rays at facets of a rough surface: of Beckmann's distribution, with Smith's shadowing (Walter et al. 2007,
+    /// equations 38 to 41).
+    void followFacets(const SceneRays::Hit& hit, const SceneSpecular& surface, const Vec3& along, const Rgb& share,
+                      int count, int left) {
+        const Vec3 n = glm::dot(along, hit.plane) > 0 ? -hit.plane : hit.plane;
+        const double cosine = std::abs(glm::dot(along, n)), alpha = surface.roughness;
+        const Vec3 x = glm::normalize(glm::cross(n, std::abs(n.y) < 0.5 ? Vec3(0, 1, 0) : Vec3(0, 0, 1)));
+        for (int i = 0; i < count; ++i) {
+            const Vec2 u = options_.next();
+            const double slope = alpha * std::sqrt(-std::log1p(-u.x)), phi = 2 * kPi * u.y;
+            const Vec3 facet = glm::normalize(n + slope * (std::cos(phi) * x + std::sin(phi) * glm::cross(n, x)));
+            const double facing = -glm::dot(along, facet);
+            if (facing <= 0 || cosine == 0) continue;
+            SceneSpecular flat = surface;  // as the facet is: seen from its front
+            if (flat.ior && n != hit.plane) flat.ior = 1 / *flat.ior;
+            for (const SpecularRay& next : specularRays(flat, along, facet)) {
+                const double ahead = glm::dot(next.direction, n);
+                if ((ahead > 0) != (glm::dot(next.direction, facet) > 0) || ahead == 0) continue;
+                const double weight =
+                    facing / (cosine * glm::dot(facet, n)) / ((1 + hidden(cosine, alpha)) * (1 + hidden(ahead, alpha)));
+                const Fog fog{surface.fog, surface.fogDistance > 0 ? std::abs(ahead) / surface.fogDistance : 0};
+                follow({hit.s.position, next.direction, rays_.skip(), std::numeric_limits<float>::max()},
+                       share * weight * next.share, left - 1, fog, true);
+            }
+        }
+    }
+
+    /// Smith's Λ of Beckmann's distribution.
+    static double hidden(double cosine, double alpha) {
+        const double sine = std::sqrt(std::max(0.0, 1 - cosine * cosine));
+        if (sine < 1e-9) return 0;
+        const double a = std::abs(cosine) / (alpha * sine);
+        return 0.5 * (std::erf(a) - 1) + std::exp(-a * a) / (2 * a * std::sqrt(kPi));
+    }
+
     /// Slopes against the normal moved by a Gaussian (Box and Muller's).
     Vec3 spread(const Vec3& direction, const Vec3& normal, double deviation) const {
         const Vec3 n = glm::dot(direction, normal) > 0 ? normal : -normal;

@@ -83,8 +83,8 @@ std::shared_ptr<const Image> textureOf(const std::filesystem::path& path) {
 }
 
 SceneSpecular specular(const JsonField& field, const std::filesystem::path& folder) {
-    field.requireKeys(
-        {"ior", "reflection", "transmission", "partial", "surface", "texture", "fog", "fogDistance", "spread"});
+    field.requireKeys({"ior", "reflection", "transmission", "partial", "surface", "texture", "fog", "fogDistance",
+                       "spread", "roughness"});
     SceneSpecular out;
     ifThere(field, "ior", [&](const JsonField& f) { out.ior = f.number(1e-3, 1e3); });
     ifThere(field, "reflection", [&](const JsonField& f) { out.reflection = f.color(); });
@@ -103,6 +103,10 @@ SceneSpecular specular(const JsonField& field, const std::filesystem::path& fold
         out.fog = f.color();
     });
     ifThere(field, "spread", [&](const JsonField& f) { out.spread = f.number(0, 10); });
+    ifThere(field, "roughness", [&](const JsonField& f) {
+        if (out.spread > 0) f.fail("expected \"spread\" or \"roughness\", found both");
+        out.roughness = f.number(0, 1);
+    });
     return out;
 }
 

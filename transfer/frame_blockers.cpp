@@ -139,4 +139,23 @@ void MovingLevels::place(std::span<const glm::vec3> positions, unsigned threads,
     });
 }
 
+std::size_t FrameBlockers::bytes() const {
+    std::size_t sum = bytesOf(rows) + bytesOf(pushed) + bytesOf(patches.radius) + bytesOf(patches.off);
+    for (const std::vector<float>& column : patches.centre) sum += bytesOf(column);
+    for (const std::vector<float>& column : patches.corners) sum += bytesOf(column);
+    return sum;
+}
+
+std::size_t MovingLevels::bytes() const {
+    std::size_t sum = bytesOf(used_) + bytesOf(numbered_) + bytesOf(firstRow_) + bytesOf(firstPushed_) +
+                      bytesOf(vertexParts_) + bytesOf(rowParts_) + bytesOf(patchCorners_) + bytesOf(sides_) +
+                      bytesOf(patchPush_) + bytesOf(joined_) + bytesOf(levels_.levels) + bytesOf(levels_.patches);
+    for (const CornersOfVertices& corners : corners_) sum += corners.bytes();
+    for (const BlockerLevels::Level& level : levels_.levels)
+        sum += bytesOf(level.triangles) + bytesOf(level.push) + bytesOf(level.triangleOf) + bytesOf(level.restError);
+    for (const BlockerLevels::Patch& patch : levels_.patches)
+        sum += bytesOf(patch.vertices) + bytesOf(patch.triangles) + bytesOf(patch.nearest);
+    return sum;
+}
+
 }  // namespace nacre

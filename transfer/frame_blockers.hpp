@@ -10,6 +10,7 @@ struct FrameBlockers {
     std::vector<BlockerRow> rows;  ///< level after level
     PatchColumns patches;
     std::vector<glm::vec3> pushed;  ///< inside: the coarser levels' vertices
+    std::size_t bytes() const;
 };
 
 /// Levels of a mesh, and what doesn't change from frame to frame of their vertices and rows.
@@ -34,6 +35,7 @@ public:
     const std::vector<std::uint32_t>& joined(std::uint32_t patch) const { return joined_[patch]; }
     std::uint32_t firstRow(std::size_t level) const { return firstRow_[level]; }
     std::size_t rowCount() const { return rowCount_; }
+    std::size_t bytes() const;
 
 private:
     struct Part {

@@ -336,6 +336,16 @@ std::size_t SelfTransfer::coarseTriangles() const { return state_->levels.coarse
 std::uint32_t SelfTransfer::groupCount() const { return static_cast<std::uint32_t>(state_->groups.size()); }
 std::uint32_t SelfTransfer::rowCount() const { return static_cast<std::uint32_t>(state_->levels.rowCount()); }
 
+std::size_t SelfTransfer::bytes() const {
+    const State& s = *state_;
+    const std::size_t vertices = s.mesh.vertexCount();
+    std::size_t sum = bytesOf(s.mesh.weldOf) + bytesOf(s.mesh.firstOf) + bytesOf(s.mesh.triangles) + s.corners.bytes() +
+                      s.levels.bytes() + bytesOf(s.parts.sheets) + bytesOf(s.parts.inside) + bytesOf(s.groups) +
+                      bytesOf(s.near) + bytesOf(s.nearPatches) + bytesOf(s.groupInside) + bytesOf(s.angles);
+    for (const std::unique_ptr<FrameBlockers>& blockers : s.spare) sum += blockers->bytes();
+    return sum + vertices * (2 * sizeof(glm::vec3) + s.open.size() * s.open.size() * sizeof(float));
+}
+
 std::uint64_t SelfTransfer::key() const {
     std::uint64_t hash = 0xcbf29ce484222325ull;  // FNV-1a by words
     const auto add = [&](std::uint64_t word) { hash = (hash ^ word) * 0x100000001b3ull; };

@@ -68,6 +68,9 @@ public:
     const SelfTransferOptions& options() const;  ///< Auto sides as most of the mesh has them
     std::size_t coarseTriangles() const;
     std::uint32_t groupCount() const, rowCount() const;
+    /// Kept beside the tables that all meshes share: the mesh, its levels and groups, the room of a frame (once one has
+    /// been computed) and its coefficients.
+    std::size_t bytes() const;
     std::uint64_t key() const;  ///< differs where sets of blockers mean something else: by mesh, rest and levels
 
 private:

@@ -4,6 +4,7 @@
 #include <span>
 
 #include "core/animation.hpp"
+#include "transfer/memory.hpp"
 
 namespace nacre {
 
@@ -28,6 +29,7 @@ std::vector<glm::vec3> weldedPositions(const WeldedMesh& mesh, std::span<const g
 struct CornersOfVertices {
     std::vector<std::uint32_t> first, order;
     std::vector<glm::uvec2> others;  ///< beside order: the triangle's other vertices, in its direction
+    std::size_t bytes() const { return bytesOf(first) + bytesOf(order) + bytesOf(others); }
 };
 CornersOfVertices cornersOfVertices(std::span<const glm::uvec3> triangles, std::size_t vertices);
 

@@ -39,6 +39,7 @@ public:
           comparison_(
               tracer, [] { glfwPostEmptyEvent(); }, options.referencePasses, options.referenceScale) {
         if (last != nullptr) session_.restore(*last);
+        if (options.target > 0) session_.quality.emplace(options.target);
         state_.open = options.panel;
         state_.white = options.white.value_or(1);
         state_.wantsAutoExposure = !options.white;
@@ -75,7 +76,7 @@ private:
     void settle() { unsettled_ = kSettle; }
 
     void waitForEvents() {
-        const bool busy = unsettled_ > 0 || options_.benchmark > 0 ||
+        const bool busy = unsettled_ > 0 || options_.benchmark > 0 || session_.refines() ||
                           (session_.playing && session_.scene().duration > 0 && session_.width() > 0);
         if (busy)
             glfwPollEvents();
@@ -181,6 +182,7 @@ private:
                                {"help", state_.help},
                                {"panel", state_.open},
                                {"node", state_.node},
+                               {"quality", qualityName(session_.quality ? session_.quality->level() : 0)},
                                {"settled", unsettled_ == 0},
                                {"reference_passes", comparison_.passes()},
                                {"screenshot", screenshot_},

@@ -36,7 +36,7 @@ int run(int argc, char** argv) {
         "F1 in the window lists keys and mouse. Exit code: 0 closed, 1 no display, no OpenGL 3.3, or a scene that "
         "can't be read, 2 wrong usage.");
     std::string size;
-    double white = 0;
+    double white = 0, targetMs = 0;
     bool noPanel = false;
     cli.add_option("file", options.file,
                    "Scene (.json, .gltf, .glb), mesh (.obj, .ply, .off, ...), or what nacre transfer wrote")
@@ -59,6 +59,9 @@ int run(int argc, char** argv) {
     cli.add_option("--reference-scale", options.referenceScale,
                    "The reference has 1/N of the picture's edges (default 2)")
         ->check(CLI::Range(1, 16));
+    cli.add_option("--target-ms", targetMs,
+                   "Of a frame while the picture moves: quality gives way, and comes back at rest (default: none)")
+        ->check(CLI::Range(0.1, 1e5));
     cli.add_flag("--no-panel", noPanel, "Without the panel (Tab brings it)");
     cli.add_option("--benchmark", options.benchmark, "Draw N frames, print their times as JSON, and close")
         ->check(CLI::Range(1, 100000));
@@ -69,6 +72,7 @@ int run(int argc, char** argv) {
     cli.parse(argc, argv);
     if (!size.empty()) takeSize(size, options);
     if (white > 0) options.white = white;
+    options.target = targetMs * 1e-3;
     options.panel = !noPanel;
     const bool transfer = options.liveTransfer || nacre::isTransferFile(options.file);
     if (!transfer && !options.environments.empty())

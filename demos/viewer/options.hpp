@@ -20,6 +20,7 @@ struct ViewerOptions {
     std::vector<std::string> environments;  ///< that light a moving mesh
     int referencePasses = 16;
     int referenceScale = 2;    ///< the reference has 1/n of the picture's edges
+    double target = 0;         ///< of a frame while the picture moves [s]; 0: full quality always
     int benchmark = 0;         ///< frames to draw and time; 0: stay open
     int loseContextAfter = 0;  ///< frames after which the first context counts as lost, for tests; 0: never
     bool trace = false;        ///< one JSON line on standard output for each frame shown

@@ -66,6 +66,7 @@ void methodSection(ViewerSession& session) {
     box("background", on.sky, true);
     box("ambient", on.ambient, false);
     if (changed) session.touch();
+    if (hasSpecular(session.scene()) || on.shadowMethod == ShadowMethod::Volumes) qualitySection(session);
 }
 
 void animationSection(ViewerSession& session) {
@@ -137,6 +138,11 @@ void sections(ViewerSession& session, Comparison& comparison, PanelState& state)
         const bool assets = ImGui::CollapsingHeader("Baked assets");
         notePlace(state, "Baked assets");
         if (assets) assetSection(session, state);
+    }
+    if (hasSpecular(session.scene())) {
+        const bool passes = ImGui::CollapsingHeader("Passes");
+        notePlace(state, "Passes");
+        if (passes) passesSection(session, state);
     }
     const bool times = ImGui::CollapsingHeader("Times of the passes");
     if (times && !session.timing) session.touch();

@@ -89,7 +89,7 @@ RenderTarget& ViewerSession::sizedTarget() {
 
 void ViewerSession::drawOnce() {
     if (width_ < 1 || height_ < 1) return;
-    renderer_->switches = switches;
+    renderer_->switches = atQuality(switches, quality ? quality->level() : 0);
     renderer_->setTiming(timing);
     const auto begin = std::chrono::steady_clock::now();
     renderer_->render(sizedTarget(), camera, time);
@@ -100,9 +100,14 @@ void ViewerSession::drawOnce() {
 }
 
 bool ViewerSession::draw() {
-    if (drawn_ == revision_ || width_ < 1 || height_ < 1) return false;
+    const bool moves = drawn_ != revision_;
+    if ((!moves && !refines()) || width_ < 1 || height_ < 1) return false;
     drawn_ = revision_;
-    return attempt("picture", [&] { drawOnce(); });
+    const bool first = pictures_ == 0;
+    if (quality) quality->next(moves);
+    const bool drawn = attempt("picture", [&] { drawOnce(); });
+    if (quality && drawn && !first) quality->took(seconds_);  // the first one compiles
+    return drawn;
 }
 
 Image ViewerSession::pictureOf(int width, int height, int n) {
@@ -240,6 +245,7 @@ bool ViewerSession::open(const fs::path& file) {
             throw;
         }
         options_.file = file;
+        switches.specular.hidden.clear();  // of the last scene's faces
         time = 0;
         playing = scene().duration > 0;
         watchFiles();

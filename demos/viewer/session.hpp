@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "demos/viewer/file_watch.hpp"
+#include "shading/multipass/quality.hpp"
 #include "shading/scene_bounds.hpp"
 #include "shading/scene_renderer.hpp"
 
@@ -54,6 +55,9 @@ public:
     bool playing = false;
     SceneSwitches switches;
     bool timing = false;  ///< passes() are measured
+    /// Moves among levels of quality, below the switches, to keep a time; none: always all.
+    std::optional<QualityControl> quality{};
+    bool refines() const { return quality && quality->refines() && drawn_ == revision_; }
     void touch() { ++revision_; }
     /// Grows with everything that changes the picture.
     int revision() const { return revision_; }

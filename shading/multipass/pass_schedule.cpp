@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "core/error.hpp"
+#include "shading/multipass/rough_face.hpp"
 
 namespace nacre {
 namespace {
@@ -40,6 +41,8 @@ Vec2 gaussian(int i, ShearSampling sampling) {
     const double radius = std::sqrt(-2 * std::log1p(-u.x));
     return radius * Vec2(std::cos(2 * kPi * u.y), std::sin(2 * kPi * u.y));
 }
+
+int stepOf(int face, Bounce bounce) { return 2 * face + (bounce == Bounce::Refracted ? 1 : 0); }
 
 class Scheduler {
 public:
@@ -86,7 +89,8 @@ private:
             ++out_.unseen;
             return;
         }
-        const std::vector<Branch> branches = branchesOf(view, face, window);
+        std::vector<Branch> branches = branchesOf(view, face, window);
+        dropHidden(pathOf(out_, view), face, branches);
         if (branches.empty()) return;
         const PixelRect scissor = boxOf(window);
         const int level = at(view).level;
@@ -120,6 +124,18 @@ private:
             adds = true;
         }
         add(PassKind::Unmask, view, face, level + 1, scissor);
+    }
+
+    void dropHidden(std::vector<int> path, int face, std::vector<Branch>& branches) const {
+        if (options_.hidden.empty()) return;
+        path.push_back(0);
+        branches.erase(std::remove_if(branches.begin(), branches.end(),
+                                      [&](const Branch& branch) {
+                                          path.back() = stepOf(face, branch.bounce);
+                                          return std::find(options_.hidden.begin(), options_.hidden.end(), path) !=
+                                                 options_.hidden.end();
+                                      }),
+                       branches.end());
     }
 
     /// Where the face is seen, hidden parts included.
@@ -185,7 +201,7 @@ private:
         };
         if (!s.ior) {
             reflects(false);
-            return sheared(view, f, std::move(out));
+            return sheared(view, face, window, std::move(out));
         }
         const double eta = sideOf(from, f.plane) > 0 ? *s.ior : 1 / *s.ior;
         const bool total = !refractedEye(from, f.plane, f.centre(), eta, options_.eye);
@@ -196,25 +212,35 @@ private:
         if (refracts && transmission != Rgb(0))
             out.push_back({Bounce::Refracted, transmission, s.partial && eta != 1, refracted(from, f.plane, *eye),
                            at(view).shear});
-        if (s.partial ? eta != 1 : total) reflects(s.partial);
-        return sheared(view, f, std::move(out));
+        if (s.partial ? eta != 1 && (options_.partial || total) : total) reflects(s.partial);
+        return sheared(view, face, window, std::move(out));
     }
 
     /// Frosted and glossy faces: many views for one; but one for one where the path has been split already.
-    std::vector<Branch> sheared(int view, const SpecularFace& face, std::vector<Branch> branches) {
-        if (face.specular.spread == 0) return branches;
+    std::vector<Branch> sheared(int view, int number, const std::vector<Vec2>& window, std::vector<Branch> branches) {
+        const SpecularFace& face = faceAt(number);
+        if (!face.specular.scatters()) return branches;
         const int before = at(view).shear, count = before < 0 ? options_.shears : 1;
+        const int side = sideOf(at(view).view, face.plane);
+        const Vec3 towards = towardsEye(at(view).view, incidentPoint(view, number, window));
         std::vector<Branch> out;
         for (const Branch& branch : branches)
             for (int i = 0; i < count; ++i) {
                 // A second face takes its samples in another order.
                 const int sample = before < 0 ? i : (before * 7 + 3) % options_.shears;
-                const Vec2 slope = face.specular.spread * gaussian(sample, options_.sampling);
+                const Vec2 facet = gaussian(sample, options_.sampling);
+                FacetShear shear{face.specular.spread * facet, 1};
+                if (face.specular.roughness > 0) {
+                    std::optional<double> eta;
+                    if (branch.bounce == Bounce::Refracted)
+                        eta = side > 0 ? *face.specular.ior : 1 / *face.specular.ior;
+                    shear = facetShear(towards, face.plane, eta, face.specular.roughness, facet);
+                    if (shear.weight == 0) continue;
+                }
                 Branch next = branch;
-                next.factor /= double(count);
+                next.factor *= shear.weight / double(count);
                 next.shear = sample;
-                const int side = sideOf(at(view).view, face.plane);
-                next.view = seenFrom(at(view).view, face.plane, shearedEye(branch.view.eye, face.plane, slope),
+                next.view = seenFrom(at(view).view, face.plane, shearedEye(branch.view.eye, face.plane, shear.slope),
                                      branch.bounce == Bounce::Reflected ? side : -side, branch.view.mirrored);
                 out.push_back(std::move(next));
             }
@@ -246,46 +272,7 @@ private:
     const SpecularOptions& options_;
 };
 
-std::string rectText(const PixelRect& r) { return fmt::format("{},{} {}x{}", r.x, r.y, r.width, r.height); }
-
-std::string nameOf(const PassSchedule& schedule, const std::vector<std::string>& names, int face) {
-    const std::size_t node = schedule.faces[static_cast<std::size_t>(face)].node;
-    return node < names.size() && !names[node].empty() ? names[node] : fmt::format("node {}", node);
-}
-
-const char* howText(Bounce how) { return how == Bounce::Reflected ? " reflects" : " refracts"; }
-
-/// "camera > mirror reflects > pane refracts"
-std::string pathText(const PassSchedule& schedule, const std::vector<std::string>& names, int view) {
-    const ScheduledView& v = schedule.views[static_cast<std::size_t>(view)];
-    if (v.parent < 0) return "camera";
-    return pathText(schedule, names, v.parent) + " > " + nameOf(schedule, names, v.face) + howText(v.bounce);
-}
-
-std::string addedText(const ScheduledLight& light) {
-    if (!light.image) return "add where no shadow volume is";
-    return fmt::format("add in {} light volume{}, not in shadows of {} stages", light.image->bounces.size(),
-                       light.image->bounces.size() == 1 ? "" : "s", light.image->stages.size());
-}
-
-std::string drawnText(const PassSchedule& schedule, const Pass& pass) {
-    const ScheduledView& v = schedule.views[static_cast<std::size_t>(pass.view)];
-    if (pass.kind == PassKind::Surfaces)
-        return fmt::format("{}{}{}", v.adds ? "add" : "replace", v.weighted ? ", times alpha" : "",
-                           v.view.mirrored ? ", turned winding" : "");
-    if (pass.kind == PassKind::Light) return addedText(schedule.lights[static_cast<std::size_t>(pass.light)]);
-    if (pass.kind == PassKind::Mask) return "stencil + 1 where not hidden";
-    if (pass.kind == PassKind::Clear) return "depth = far";
-    if (pass.kind == PassKind::Weight) return "alpha = what the path keeps";
-    return "stencil - 1, depth = the face's";
-}
-
 }  // namespace
-
-const char* toString(PassKind kind) {
-    static constexpr const char* kNames[] = {"surfaces", "light", "mask", "clear", "weight", "unmask"};
-    return kNames[static_cast<int>(kind)];
-}
 
 PassSchedule makeSchedule(std::vector<SpecularFace> faces, const ScheduleInput& input, const SpecularOptions& options) {
     require(
@@ -323,32 +310,12 @@ double nearestDepth(const SpecularView& view, const Vec3& centre, double radius)
     return depthOf(view, centre) - radius * glm::length(slope);
 }
 
-std::string lightText(const PassSchedule& schedule, int light, const std::vector<std::string>& names,
-                      const std::vector<std::string>& lightNames) {
-    const ScheduledLight& l = schedule.lights[static_cast<std::size_t>(light)];
-    const bool named = l.light < lightNames.size() && !lightNames[l.light].empty();
-    std::string out = named ? lightNames[l.light] : fmt::format("light {}", l.light);
-    if (!l.image) return out;
-    for (const LightBounce& b : l.image->bounces) out += " > " + nameOf(schedule, names, b.face) + howText(b.how);
-    return out;
-}
-
-std::string passListText(const PassSchedule& schedule, const std::vector<std::string>& names,
-                         const std::vector<std::string>& lightNames) {
-    std::string out = fmt::format("{} passes, {} views, {} levels; {} views left out, in which nothing is seen\n",
-                                  schedule.passes.size(), schedule.views.size(), schedule.deepest, schedule.unseen);
-    if (!schedule.lights.empty()) out += fmt::format("lights added in each view: {}\n", schedule.lights.size());
-    out += fmt::format("{:>5}  {:<9} {:<12} {:<18} {:<34} {}\n", "", "pass", "stencil", "scissor", "what", "view");
-    for (std::size_t i = 0; i < schedule.passes.size(); ++i) {
-        const Pass& pass = schedule.passes[i];
-        const std::string face = pass.light >= 0 ? lightText(schedule, pass.light, names, lightNames) + ": "
-                                 : pass.face < 0 ? ""
-                                                 : nameOf(schedule, names, pass.face) + ": ";
-        out += fmt::format("{:>5}  {:<9} {:<12} {:<18} {:<34} {}\n", i, toString(pass.kind),
-                           fmt::format("= {}", pass.stencil), rectText(pass.scissor), face + drawnText(schedule, pass),
-                           pathText(schedule, names, pass.view));
-    }
-    return out;
+std::vector<int> pathOf(const PassSchedule& schedule, int view) {
+    const ScheduledView& v = schedule.views[static_cast<std::size_t>(view)];
+    if (v.parent < 0) return {};
+    std::vector<int> path = pathOf(schedule, v.parent);
+    path.push_back(stepOf(v.face, v.bounce));
+    return path;
 }
 
 }  // namespace nacre

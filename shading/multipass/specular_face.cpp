@@ -116,9 +116,12 @@ void checkSpecular(const SceneDescription& scene) {
         const SceneSpecular& s = *m.specular;
         require(isFinite(s.reflection) && isFinite(s.transmission) && s.surface >= 0 && s.surface <= 1 &&
                     (!s.ior || (std::isfinite(*s.ior) && *s.ior > 0)) && isFinite(s.fog) &&
-                    std::isfinite(s.fogDistance) && s.fogDistance >= 0 && std::isfinite(s.spread) && s.spread >= 0,
+                    std::isfinite(s.fogDistance) && s.fogDistance >= 0 && std::isfinite(s.spread) && s.spread >= 0 &&
+                    std::isfinite(s.roughness) && s.roughness >= 0 && (s.spread == 0 || s.roughness == 0),
                 "material '" + m.name +
-                    "': specular: expected finite factors, surface in [0, 1], ior > 0, fogDistance and spread >= 0");
+                    "': specular: expected finite factors, surface in [0, 1], ior > 0, fogDistance, spread and "
+                    "roughness >= 0, "
+                    "one of the last two");
         require(!s.texture || (s.texture->channels() == 4 && s.texture->width() > 0),
                 "material '" + m.name + "': specular: expected a texture of 4 channels");
         if (s.texture && m.relief)

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <vector>
 
 namespace nacre {
 
@@ -36,6 +37,9 @@ struct SpecularOptions {
     ShearSampling sampling = ShearSampling::LowDiscrepancy;
     int stencilBits = 8;       ///< of the target
     std::size_t most = 20000;  ///< views; more is an error
+    bool partial = true;       ///< false: faces don't show the weak part, what refracting ones reflect by Fresnel
+    /// Views that aren't drawn: each the faces on its way from the camera, as pathOf says.
+    std::vector<std::vector<int>> hidden{};
 
     bool operator==(const SpecularOptions&) const = default;
 };

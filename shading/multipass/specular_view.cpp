@@ -17,12 +17,11 @@ glm::dmat4 reflection(const Plane& plane) {
     return out;
 }
 
-/// Unit, from a point to the eye.
+}  // namespace
+
 Vec3 towardsEye(const SpecularView& view, const Vec3& point) {
     return view.eye.w == 0 ? Vec3(view.eye) : glm::normalize(Vec3(view.eye) - point);
 }
-
-}  // namespace
 
 SpecularView viewOf(const Camera& camera, double aspect) {
     SpecularView out;
@@ -64,9 +63,13 @@ SpecularView seenFrom(const SpecularView& view, const Plane& plane, const Vec4& 
     return out;
 }
 
+Vec3 planeAxis(const Plane& plane) {
+    const Vec3 n(plane);
+    return glm::normalize(glm::cross(std::abs(n.x) < 0.5 ? Vec3(1, 0, 0) : Vec3(0, 1, 0), n));
+}
+
 Vec4 shearedEye(const Vec4& eye, const Plane& plane, const Vec2& slope) {
-    const Vec3 n(plane), x = glm::normalize(glm::cross(std::abs(n.x) < 0.5 ? Vec3(1, 0, 0) : Vec3(0, 1, 0), n));
-    const Vec3 along = slope.x * x + slope.y * glm::cross(n, x);
+    const Vec3 x = planeAxis(plane), along = slope.x * x + slope.y * glm::cross(Vec3(plane), x);
     Vec4 out = eye - Vec4(glm::dot(plane, eye) * along, 0);
     if (out.w == 0) out = Vec4(glm::normalize(Vec3(out)), 0);
     return out;

@@ -52,8 +52,14 @@ SpecularView refracted(const SpecularView& view, const Plane& plane, const Vec4&
 /// stale.
 SpecularView seenFrom(const SpecularView& view, const Plane& plane, const Vec4& eye, int kept, bool mirrored);
 
+/// Unit, from a point to the eye.
+Vec3 towardsEye(const SpecularView& view, const Vec3& point);
+
+/// The first axis of a plane's own frame, unit; the second is the normal × it.
+Vec3 planeAxis(const Plane& plane);
+
 /// MPR's shear about the face's normal, which moves each point along the plane by `slope` times its distance: the same
-/// as to move the eye the other way. \param slope  in a frame of the plane's own
+/// as to move the eye the other way. \param slope  in the plane's own frame
 Vec4 shearedEye(const Vec4& eye, const Plane& plane, const Vec2& slope);
 
 /// The eye that refraction at `point` of the plane moves the view's eye to; none where all is reflected: sin θ ≥ the

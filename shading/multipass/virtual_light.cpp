@@ -155,7 +155,7 @@ bool isRefracted(const VirtualLight& light) {
 std::vector<bool> sendingFaces(const SceneDescription& scene, const std::vector<SpecularFace>& faces) {
     std::vector<bool> out;
     for (const SpecularFace& face : faces)
-        out.push_back(scene.nodes[face.node].castsShadow && face.specular.spread == 0);
+        out.push_back(scene.nodes[face.node].castsShadow && !face.specular.scatters());
     return out;
 }
 

@@ -59,7 +59,7 @@ struct ScheduledLight {
     std::optional<VirtualLight> image;  ///< none: the lamp itself, with all points of its area
 };
 
-/// Faces that take part: their nodes cast shadows and they spread nothing. What isn't blocked by a face isn't sent on.
+/// Faces that take part: their nodes cast shadows and they scatter nothing. What isn't blocked by a face isn't sent on.
 std::vector<bool> sendingFaces(const SceneDescription& scene, const std::vector<SpecularFace>& faces);
 
 /// All of a light's images of 1 to `depth` bounces whose beam, cut by each face's outline, isn't empty.

@@ -127,6 +127,13 @@ TEST(CommandRender, MirrorsAndPanesAreDrawnTracedAndListed) {
     const Outcome run = nacre({"render", scene, "-o", scratch / "r.png", "--size", "96x64", "--reference", "--json"});
     ASSERT_EQ(run.code, 0) << run.err;
     EXPECT_GT(json::parse(run.out)["errors"]["all"]["psnr"], 32) << "outlines, shadows' edges, one angle a pane";
+    const Outcome low = nacre(
+        {"render", scene, "-o", scratch / "l.png", "--size", "96x64", "--quality", "low", "--reference", "--json"});
+    ASSERT_EQ(low.code, 0) << low.err;
+    EXPECT_EQ(json::parse(low.out)["quality"], "low");
+    EXPECT_LT(json::parse(low.out)["passes"], json::parse(run.out)["passes"]);
+    EXPECT_LT(json::parse(low.out)["errors"]["all"]["psnr"], json::parse(run.out)["errors"]["all"]["psnr"])
+        << "against the same reference";
     EXPECT_THAT(nacre({"info", scene}).out, HasSubstr("specular mirror"));
     const auto render = [&](const char* lights) {
         const Outcome out = nacre({"render", scene, "-o", scratch / "l.png", "--size", "96x64", "--shadows", "volumes",
@@ -135,9 +142,9 @@ TEST(CommandRender, MirrorsAndPanesAreDrawnTracedAndListed) {
         return json::parse(out.out);
     };
     const json without = render("0"), with = render("1");
-    EXPECT_EQ(without["passes"]["lights"], 1);
-    EXPECT_EQ(with["passes"]["lights"], 2) << "the mirror's image of the lamp; the pane casts no shadow";
-    EXPECT_EQ(with["passes"]["light_passes"], 2 * with["passes"]["views"].get<int>());
+    EXPECT_EQ(without["light_paths"]["images"], 0);
+    EXPECT_EQ(with["light_paths"]["images"], 1) << "the mirror's; the pane casts no shadow";
+    EXPECT_EQ(with["light_paths"]["passes"], 2 * (1 + with["specular_views"].get<int>()));
     EXPECT_GT(with["errors"]["all"]["psnr"], 32);
     const Outcome lights = nacre({"render", scene, "--passes", "--light-paths", "1"});
     EXPECT_THAT(lights.out, HasSubstr("lamp > looking-glass reflects: add in 1 light volume"));
@@ -190,6 +197,7 @@ TEST(CommandRender, WrongUsageIsTwo) {
         {{"render", scene, "-o", output, "--size", "0x10"}, "WIDTHxHEIGHT"},
         {{"render", scene, "-o", output, "--samples", "0"}, "--samples"},
         {{"render", scene, "-o", output, "--time", "soon"}, "--time"},
+        {{"render", scene, "-o", output, "--quality", "best"}, "--quality: expected full, high, medium, low or least"},
         {{"render", scene}, "--output"}};
     for (const auto& [arguments, words] : cases) {
         const Outcome run = nacre(arguments);

@@ -79,6 +79,8 @@ TEST(CommandTransfer, JsonAndFileSayTheSame) {
     EXPECT_GT(data["vertices_per_second"], 0);
     EXPECT_NEAR(data["vertices_per_second"].get<double>() / data["frames_per_second"].get<double>(), 1378, 1e-6);
     EXPECT_GT(data["blockers"]["listed"], data["blockers"]["drawn"]);
+    EXPECT_GT(data["memory"]["bytes_per_vertex"], 25 * 4 + 3 * 64) << "coefficients, and a row for each triangle";
+    EXPECT_LE(data["memory"]["bytes_per_vertex"], 2048) << "the issue's bar";
     for (const char* part : {"rasterization", "integration", "transform"}) EXPECT_GT(data["seconds"][part], 0) << part;
     EXPECT_GE(data["seconds"]["other"], 0);
     for (const char* key : {"l2_rel", "median", "p95", "total", "buried"})

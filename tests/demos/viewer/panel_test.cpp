@@ -155,5 +155,24 @@ TEST_F(ViewerPanel, AMeshWithoutTextureCoordinatesIsOfferedNoRelief) {
     EXPECT_FALSE(offered(viewer, "baked")["places"].contains("relief"));
 }
 
+/// A mirror fills the picture; its view is switched off in the list of passes.
+TEST_F(ViewerPanel, ViewsOfMirrorsAreSwitchedOff) {
+    writeFile(scratch_ / "mirror.json", R"({"nacre_scene": 1,
+ "meshes": {"wall": {"quad": {"size": 8, "steps": 1}}},
+ "materials": {"mirror": {"specular": {}}},
+ "nodes": {"glass": {"mesh": "wall", "material": "mirror"}},
+ "sky": {"color": [0.2, 0.5, 0.3]},
+ "camera": {"eye": [0, 0, 4]}})");
+    Viewer viewer(display_, words(scratch_ / "mirror.json"));
+    json line = offered(viewer, "Passes");
+    const Image mirrored = screenshot(viewer, line);
+    EXPECT_NEAR(mirrored.at(kWidth / 2, kHeight / 2, 1), 0.5, 1e-3);
+    click(line, "Passes");
+    click(offered(viewer, "camera > glass reflects"), "camera > glass reflects");
+    line =
+        viewer.until([pictures = line["pictures"]](const json& l) { return l["pictures"] != pictures && settled(l); });
+    EXPECT_EQ(screenshot(viewer, line).at(kWidth / 2, kHeight / 2, 1), 0) << "a mirror that shows nothing";
+}
+
 }  // namespace
 }  // namespace nacre

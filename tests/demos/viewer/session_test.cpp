@@ -223,5 +223,33 @@ TEST_F(Session, AMissingFileIsNamed) {
                 HasSubstr("absent.obj"));
 }
 
+/// A target that no level meets: while it moves the least is drawn; at rest all comes back, one level a picture.
+TEST_F(Session, QualityGivesWayWhileItMovesAndComesBack) {
+    std::string room = kScene;
+    room.replace(room.find("\"nodes\": {"), 10, R"("nodes": {"glass": {"mesh": "wall", "material": "glass"},)");
+    room.replace(room.find("\"meshes\": {"), 11, R"("meshes": {"wall": {"quad": {"size": 2, "steps": 1}},)");
+    room.replace(room.find("\"materials\": {"), 14, R"("materials": {"glass": {"specular": {"ior": 1.5}},)");
+    write(room);
+    ViewerSession session = open();
+    const std::size_t all = session.renderer().schedule().views.size();
+    EXPECT_EQ(all, 3u) << "the camera's, refracted, reflected";
+    const std::vector<float> full = pixels(session);
+    session.quality.emplace(1e-6);
+    for (int i = 0; i < 2 * kQualityLevels; ++i) {
+        session.touch();
+        EXPECT_TRUE(session.draw());
+    }
+    EXPECT_STREQ(qualityName(session.quality->level()), "least");
+    EXPECT_EQ(session.renderer().schedule().views.size(), 2u) << "without the weak reflection";
+    for (int i = 1; i < kQualityLevels; ++i) {
+        EXPECT_TRUE(session.refines());
+        EXPECT_TRUE(session.draw());
+    }
+    EXPECT_FALSE(session.refines());
+    EXPECT_FALSE(session.draw()) << "nothing to gain";
+    EXPECT_EQ(session.renderer().schedule().views.size(), all);
+    EXPECT_EQ(pixels(session), full);
+}
+
 }  // namespace
 }  // namespace nacre

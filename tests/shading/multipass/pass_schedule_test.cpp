@@ -8,6 +8,7 @@
 
 #include "core/error.hpp"
 #include "shading/multipass/light_schedule.hpp"
+#include "shading/multipass/pass_text.hpp"
 #include "shading/scene_bounds.hpp"
 #include "tests/shading/multipass/specular_fixture.hpp"
 
@@ -277,6 +278,36 @@ TEST(SpecularFaces, FrontIsWhereTrianglesAreCounterClockwise) {
     EXPECT_GT(glm::dot(n, Vec3(faces[0].plane)), 0);
     const Mesh moved = transformed(s.scene.meshes[0].mesh, nodeTransforms(s.scene, 0)[1]);
     EXPECT_LT(glm::length(Vec3(faces[1].plane) - Vec3(moved.normals[0])), 1e-6);
+}
+
+/// What is left out are a view and all that is seen in it; others keep their passes.
+TEST(PassSchedule, HiddenViewsTakeWhatIsSeenInThemAlong) {
+    test::SpecularScene s;
+    s.face("far", {}, {0, 0, -3}, 0, {0, 1, 0}, Vec3(4));
+    s.face("near", {}, {0, 0, 4}, kPi, {0, 1, 0}, Vec3(4));
+    SpecularOptions options;
+    options.depth = 5;
+    const PassSchedule all = scheduleOf(s.scene, options);
+    EXPECT_EQ(pathOf(all, 3), (std::vector<int>{0, 2, 0})) << "far, near, far";
+    EXPECT_EQ(pathText(all, {"far", "near"}, {0, 3}), "camera > far reflects > near refracts");
+    options.hidden = {{0, 2, 0}};
+    const PassSchedule some = scheduleOf(s.scene, options);
+    EXPECT_EQ(some.views.size(), 3u);
+    expectCountsReturn(some);
+    options.hidden = {{0}};
+    EXPECT_EQ(scheduleOf(s.scene, options).passes.size(), 1u);
+    options.hidden = {{2}, {1}};
+    EXPECT_EQ(scheduleOf(s.scene, options).passes.size(), all.passes.size()) << "no such views";
+}
+
+TEST(PassSchedule, WithoutPartialLightGlassOnlyRefracts) {
+    const SceneDescription scene = test::paneScene(1.5, true, 0.3);
+    SpecularOptions options;
+    EXPECT_EQ(scheduleOf(scene, options).views.size(), 3u);
+    options.partial = false;
+    const PassSchedule less = scheduleOf(scene, options);
+    ASSERT_EQ(less.views.size(), 2u);
+    EXPECT_EQ(less.views[1].bounce, Bounce::Refracted);
 }
 
 }  // namespace
