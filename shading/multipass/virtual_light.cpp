@@ -117,11 +117,9 @@ private:
         }
         light.seen.color *= factor;
         LightStage& before = light.stages.back();
-        before.to = face;
         before.within.push_back(double(side) * f.plane);
         before.planeFaces.push_back(face);
         for (LightStage& stage : light.stages) stage.toLast = through * stage.toLast;
-        after.from = face;
         after.within = {double(reflects ? side : -side) * f.plane};
         after.planeFaces = {face};
         const Mat3 back = glm::inverse(Mat3(through));

@@ -28,7 +28,6 @@ struct LightBounce {
 struct LightStage {
     Vec4 source{0};               ///< where the light seems to be here, homogeneous, in the world
     glm::dmat4 toLast{1};         ///< takes what is on this stage to where it seems to be after the last face
-    int from = -1, to = -1;       ///< faces at its ends; −1: none
     std::vector<Plane> within;    ///< of objects, what lies in front of these may block
     std::vector<int> planeFaces;  ///< whose planes they are
 };
