@@ -4,7 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "shading/multipass/light_schedule.hpp"
-#include "shading/multipass/pass_schedule.hpp"
+#include "shading/multipass/pass_text.hpp"
 #include "shading/scene_bounds.hpp"
 
 namespace nacre::cli {
@@ -30,12 +30,11 @@ static json passesJson(const PassSchedule& schedule, const std::vector<std::stri
     return out;
 }
 
-json passCountsJson(const PassSchedule& schedule) {
-    const auto light = [](const Pass& pass) { return pass.kind == PassKind::Light; };
-    return {{"views", schedule.views.size()},
-            {"passes", schedule.passes.size()},
-            {"lights", schedule.lights.size()},
-            {"light_passes", std::count_if(schedule.passes.begin(), schedule.passes.end(), light)}};
+json lightCountsJson(const PassSchedule& schedule) {
+    const auto isImage = [](const ScheduledLight& light) { return light.image.has_value(); };
+    const auto adds = [](const Pass& pass) { return pass.kind == PassKind::Light; };
+    return {{"images", std::count_if(schedule.lights.begin(), schedule.lights.end(), isImage)},
+            {"passes", std::count_if(schedule.passes.begin(), schedule.passes.end(), adds)}};
 }
 
 std::string passList(const SceneDescription& scene, const SceneShot& shot, const SceneSwitches& on, bool asJson) {

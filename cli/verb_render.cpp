@@ -172,7 +172,7 @@ void runRender(const Context& context, const Settings& s) {
                  {"programs", renderer.programs().size()},
                  {"renderer", gl.description()}};
     if (s.shot.interreflection) data["radiosity"] = radiosity;
-    if (!renderer.schedule().faces.empty()) data["passes"] = passCountsJson(renderer.schedule());
+    data["light_paths"] = lightCountsJson(renderer.schedule());
     if (s.switches.shadowMethod == ShadowMethod::Volumes || !renderer.schedule().lights.empty())
         data["shadow_volumes"] = volumesJson(renderer.shadowVolumes());
     double white = s.white > 0 ? s.white : pictureWhite(picture);

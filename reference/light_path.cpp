@@ -53,7 +53,7 @@ LightPaths::LightPaths(const SceneDescription& scene, const std::vector<glm::dma
         const SceneNode& node = scene.nodes[i];
         if (node.mesh < 0 || !node.castsShadow) continue;
         const auto& specular = scene.materials.at(static_cast<std::size_t>(node.material)).specular;
-        if (!specular || specular->spread > 0) continue;
+        if (!specular || specular->scatters()) continue;
         Mesh mesh = transformed(scene.meshes.at(static_cast<std::size_t>(node.mesh)).mesh, nodes[i]);
         const Vec4 plane = planeOf(mesh);
         if (plane != Vec4(0)) faces_.push_back({plane, std::move(mesh), *specular});

@@ -5,6 +5,7 @@
 #include <cstring>
 
 #include "demos/viewer/panel_parts.hpp"
+#include "shading/multipass/pass_text.hpp"
 
 namespace nacre {
 

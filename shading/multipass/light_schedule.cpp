@@ -2,12 +2,22 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "core/error.hpp"
 #include "core/light_area.hpp"
 #include "shading/multipass/shadow_volume.hpp"
 
 namespace nacre {
 namespace {
+
+/// Whether some of the way is what a refracting face reflects by Fresnel.
+bool isWeak(const VirtualLight& image, const std::vector<SpecularFace>& faces) {
+    return std::any_of(image.bounces.begin(), image.bounces.end(), [&](const LightBounce& b) {
+        const SceneSpecular& s = faces[static_cast<std::size_t>(b.face)].specular;
+        return b.how == Bounce::Reflected && s.ior && s.partial;
+    });
+}
 
 bool castsByPasses(const SceneSwitches& on) {
     return on.shadows && on.lamps && on.reflectance != SceneReflectance::FastPhong;
@@ -42,6 +52,7 @@ std::vector<ScheduledLight> scheduledLights(const SceneDescription& scene, const
         for (std::size_t k = 0; k < lamp.points.size(); ++k)
             for (VirtualLight& image :
                  virtualLights(faces, sending, lamp.points[k], on.specular.lightDepth, on.specular.most)) {
+                if (!on.specular.partial && isWeak(image, faces)) continue;
                 image.light = lamp.light;
                 image.point = k;
                 out.push_back({lamp.light, std::move(image)});

@@ -1,5 +1,5 @@
 // What is drawn, in which order, where: a picture with specular faces as a list of passes. A value, made without
-// OpenGL: pass_runner.hpp executes it, passListText prints it.
+// OpenGL: pass_runner.hpp executes it, pass_text.hpp prints it.
 //
 // The order is MPR's draw_window and draw_spec_objects (7.1). A view draws its surfaces and the faces' own light, and
 //   Light    adds that of a lamp, or of its image in faces, where no shadow volume is counted. Then
@@ -11,7 +11,6 @@
 //   Unmask   the count goes back, and the face's own depths return
 #pragma once
 
-#include <string>
 #include <vector>
 
 #include "core/scene.hpp"
@@ -83,17 +82,5 @@ double nearestDepth(const SpecularView& view, const Vec3& centre, double radius)
 
 /// The way to a view: for each face 2 · its number, + 1 where it refracts. The same for all shears of a face.
 std::vector<int> pathOf(const PassSchedule& schedule, int view);
-/// "camera > mirror reflects > pane refracts". \param names  of the scene's nodes
-std::string pathText(const PassSchedule& schedule, const std::vector<std::string>& names, const std::vector<int>& path);
-
-/// A line a pass, for people who know the papers. \param names  of the scene's nodes, and of its lights
-std::string passListText(const PassSchedule& schedule, const std::vector<std::string>& names,
-                         const std::vector<std::string>& lightNames = {});
-
-/// "lamp > mirror reflects"
-std::string lightText(const PassSchedule& schedule, int light, const std::vector<std::string>& names,
-                      const std::vector<std::string>& lightNames);
-
-const char* toString(PassKind kind);
 
 }  // namespace nacre

@@ -19,7 +19,7 @@ struct Level {
 constexpr Level kLevels[kQualityLevels] = {{"full", 1000, kMostLightBounces, 1 << 20, 63, true},
                                            {"high", 3, 2, 16, 8, true},
                                            {"medium", 3, 1, 8, 4, false},
-                                           {"low", 2, 0, 8, 2, false},
+                                           {"low", 2, 1, 8, 2, false},
                                            {"least", 2, 0, 2, 1, false}};
 
 }  // namespace

@@ -117,11 +117,9 @@ private:
         }
         light.seen.color *= factor;
         LightStage& before = light.stages.back();
-        before.to = face;
         before.within.push_back(double(side) * f.plane);
         before.planeFaces.push_back(face);
         for (LightStage& stage : light.stages) stage.toLast = through * stage.toLast;
-        after.from = face;
         after.within = {double(reflects ? side : -side) * f.plane};
         after.planeFaces = {face};
         const Mat3 back = glm::inverse(Mat3(through));
@@ -155,7 +153,7 @@ bool isRefracted(const VirtualLight& light) {
 std::vector<bool> sendingFaces(const SceneDescription& scene, const std::vector<SpecularFace>& faces) {
     std::vector<bool> out;
     for (const SpecularFace& face : faces)
-        out.push_back(scene.nodes[face.node].castsShadow && face.specular.spread == 0);
+        out.push_back(scene.nodes[face.node].castsShadow && !face.specular.scatters());
     return out;
 }
 

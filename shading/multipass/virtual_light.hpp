@@ -28,7 +28,6 @@ struct LightBounce {
 struct LightStage {
     Vec4 source{0};               ///< where the light seems to be here, homogeneous, in the world
     glm::dmat4 toLast{1};         ///< takes what is on this stage to where it seems to be after the last face
-    int from = -1, to = -1;       ///< faces at its ends; −1: none
     std::vector<Plane> within;    ///< of objects, what lies in front of these may block
     std::vector<int> planeFaces;  ///< whose planes they are
 };
@@ -59,7 +58,7 @@ struct ScheduledLight {
     std::optional<VirtualLight> image;  ///< none: the lamp itself, with all points of its area
 };
 
-/// Faces that take part: their nodes cast shadows and they spread nothing. What isn't blocked by a face isn't sent on.
+/// Faces that take part: their nodes cast shadows and they scatter nothing. What isn't blocked by a face isn't sent on.
 std::vector<bool> sendingFaces(const SceneDescription& scene, const std::vector<SpecularFace>& faces);
 
 /// All of a light's images of 1 to `depth` bounces whose beam, cut by each face's outline, isn't empty.

@@ -142,9 +142,9 @@ TEST(CommandRender, MirrorsAndPanesAreDrawnTracedAndListed) {
         return json::parse(out.out);
     };
     const json without = render("0"), with = render("1");
-    EXPECT_EQ(without["passes"]["lights"], 1);
-    EXPECT_EQ(with["passes"]["lights"], 2) << "the mirror's image of the lamp; the pane casts no shadow";
-    EXPECT_EQ(with["passes"]["light_passes"], 2 * with["passes"]["views"].get<int>());
+    EXPECT_EQ(without["light_paths"]["images"], 0);
+    EXPECT_EQ(with["light_paths"]["images"], 1) << "the mirror's; the pane casts no shadow";
+    EXPECT_EQ(with["light_paths"]["passes"], 2 * (1 + with["specular_views"].get<int>()));
     EXPECT_GT(with["errors"]["all"]["psnr"], 32);
     const Outcome lights = nacre({"render", scene, "--passes", "--light-paths", "1"});
     EXPECT_THAT(lights.out, HasSubstr("lamp > looking-glass reflects: add in 1 light volume"));

@@ -8,6 +8,7 @@
 
 #include "core/error.hpp"
 #include "shading/multipass/light_schedule.hpp"
+#include "shading/multipass/pass_text.hpp"
 #include "shading/scene_bounds.hpp"
 #include "tests/shading/multipass/specular_fixture.hpp"
 

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <glm/gtc/matrix_transform.hpp>
 #include <random>
 
@@ -53,8 +54,10 @@ private:
     Vec4 light_;
 };
 
-/// Triangles between a point and the light (Moeller & Trumbore 1997).
-int blockers(const ShadowMesh& mesh, const glm::dmat4& toWorld, const Vec3& p, const Vec4& light) {
+/// Triangles between a point and the light (Moeller & Trumbore 1997). \param before  planes: what is behind one doesn't
+/// count
+int blockers(const ShadowMesh& mesh, const glm::dmat4& toWorld, const Vec3& p, const Vec4& light,
+             const std::vector<Vec4>& before = {}) {
     const Vec3 d = Vec3(light) - light.w * p;
     const auto corner = [&](std::uint32_t i) { return Vec3(toWorld * Vec4(Vec3(mesh.positions[i]), 1)); };
     int out = 0;
@@ -64,7 +67,9 @@ int blockers(const ShadowMesh& mesh, const glm::dmat4& toWorld, const Vec3& p, c
         if (det == 0) continue;
         const Vec3 s = p - a, r = glm::cross(s, e1);
         const double u = glm::dot(s, q) / det, v = glm::dot(d, r) / det, at = glm::dot(e2, r) / det;
-        out += u >= 0 && v >= 0 && u + v <= 1 && at > 0 && (light.w == 0 || at < 1);
+        const bool inFront = std::all_of(before.begin(), before.end(),
+                                         [&](const Vec4& plane) { return glm::dot(plane, Vec4(p + at * d, 1)) > 0; });
+        out += inFront && u >= 0 && v >= 0 && u + v <= 1 && at > 0 && (light.w == 0 || at < 1);
     }
     return out;
 }
@@ -99,6 +104,41 @@ void expectCounts(const std::string& name, const ShadowMesh& mesh, const glm::dm
 
 TEST(ShadowVolume, ContainsPointsAsTrianglesBlockThem) {
     for (const test::NamedMesh& m : test::hardMeshes()) expectCounts(m.name, makeShadowMesh(m.mesh), glm::dmat4(1));
+}
+
+TEST(ShadowVolume, OfWhatLiesInFrontOfPlanes) {
+    const std::vector<Vec4> planes{{0.3, 1, 0.1, 0.05}, {-1, 0.2, 0, 0.2}};
+    std::mt19937 random(3);
+    std::uniform_real_distribution<double> cube(-2, 2);
+    int dark = 0, freed = 0;
+    for (const test::NamedMesh& m : test::hardMeshes()) {
+        const ShadowMesh mesh = makeShadowMesh(m.mesh);
+        const CutShadowMesh cut = cutShadowMesh(mesh, planes);
+        EXPECT_FALSE(cut.pieces.solid);
+        EXPECT_EQ(cut.from.size(), cut.pieces.triangles.size());
+        for (const Vec4& light : kLights) {
+            const ShadowVolume volume = makeShadowVolume(cut.pieces, glm::dmat4(1), light);
+            const Body body(cut.pieces, volume, glm::dmat4(1), light);
+            for (int i = 0; i < 100; ++i) {
+                const Vec3 p(cube(random), cube(random), cube(random));
+                const double count = body.countAt(p);
+                if (std::abs(count - std::round(count)) > 0.05) continue;
+                const int blocked = blockers(mesh, glm::dmat4(1), p, light, planes);
+                ASSERT_EQ(std::round(count), blocked) << m.name << ", light " << light.x << ", point " << i;
+                dark += blocked > 0;
+                freed += blockers(mesh, glm::dmat4(1), p, light) > blocked;
+            }
+            const ShadowVolume drawn = makeShadowVolume(mesh, cut, glm::dmat4(1), light);
+            EXPECT_TRUE(drawn.cut);
+            if (drawn.farCap) {
+                // Slivers without an area keep their triangle's turn.
+                EXPECT_GE(drawn.farCaps + drawn.farCapsTurned, volume.caps + volume.capsTurned) << m.name;
+            }
+            EXPECT_LE(drawn.caps + drawn.capsTurned, 3 * mesh.triangles.size());
+        }
+    }
+    EXPECT_GT(dark, 100);
+    EXPECT_GT(freed, 100) << "hardly anything was cut off";
 }
 
 TEST(ShadowVolume, MovedStretchedAndMirroredObjects) {
