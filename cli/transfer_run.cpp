@@ -141,7 +141,8 @@ TransferRun runTransfer(const AnimatedMesh& animation, const TransferPlan& plan,
     out.weldOf = mesh.weldOf;
     out.triangles = mesh.triangles;
     const std::vector<glm::vec3> restPositions = weldedPositions(mesh, frameAt(rest));
-    Method transfer(mesh, restPositions, plan, motionPoses(mesh, animation));
+    const auto poses = plan.poses ? motionPoses(mesh, animation) : std::vector<std::vector<glm::vec3>>();
+    Method transfer(mesh, restPositions, plan, poses);
     if (plan.gloss) out.gloss = glossOf(*plan.gloss, animation, first, end);
     transfer.shine(out.gloss, plan.options);
     run.coarseTriangles = transfer.coarseTriangles();

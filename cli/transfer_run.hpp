@@ -41,6 +41,7 @@ struct GlossPlan {
 struct TransferPlan {
     int first = 0, end = 0;  ///< frames first … end − 1
     SelfTransferOptions options;
+    bool poses = false;                ///< whether the animation is the whole motion, for SelfTransfer's poses
     std::optional<GlossPlan> gloss{};  ///< without sets
     std::string visibleSets{};  ///< file of potentially visible sets: read when it is there, else made and written
     int windowFrames = 0;       ///< of a set that is made; 0 = all

@@ -78,7 +78,10 @@ std::string ranges(const std::vector<int>& numbers) {
 AnimatedMesh read(Settings& s) {
     MotionOptions motion;
     motion.clip = s.clip;
-    motion.frames = s.plan.end;
+    // A file's whole motion, whichever frames are wanted: its poses make the groups that sets of blockers are for.
+    std::error_code ignored;
+    s.plan.poses = std::filesystem::is_regular_file(s.model, ignored);
+    motion.frames = s.plan.poses ? 0 : s.plan.end;
     motion.note = [&](const std::string& note) { tell(fmt::format("{}: {}", s.model, note)); };
     AnimatedMesh animation = loadMotion(s.model, motion);
     const int count = static_cast<int>(animation.frames.size());

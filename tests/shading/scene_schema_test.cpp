@@ -61,7 +61,8 @@ constexpr const char* kEverything = R"({
 })";
 /// What the first can't have beside other keys.
 constexpr const char* kOtherwise =
-    R"({"nacre_scene": 1, "camera": {"orthographicHeight": 2}, "sky": {"color": [0, 0, 1]}})";
+    R"({"nacre_scene": 1, "camera": {"orthographicHeight": 2}, "sky": {"color": [0, 0, 1]},
+  "materials": {"frosted": {"specular": {"roughness": 0.2}}}})";
 
 /// As much of JSON Schema as ours uses; other keywords but notes fail the test.
 class Schema {
