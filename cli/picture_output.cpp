@@ -33,7 +33,11 @@ void writePicture(const Image& image, const std::string& output, double white) {
 }
 
 nlohmann::json differenceJson(const ImageDifference& d) {
-    return {{"psnr", d.psnrSrgb}, {"psnr_linear", d.psnrLinear}, {"relative_rmse", d.relative}, {"max_abs", d.maxAbs}};
+    return {{"psnr", d.psnrSrgb},
+            {"psnr_linear", d.psnrLinear},
+            {"relative_rmse", d.relative},
+            {"rms_over_mean", d.rmsOverMean},
+            {"max_abs", d.maxAbs}};
 }
 
 }  // namespace nacre::cli

@@ -24,19 +24,6 @@ struct Stage {
     Image drawn, traced;
 };
 
-/// Root mean square of the difference over the mean of the truth, colour channels pooled, in a mask or everywhere.
-double rmsOverMean(const Image& image, const Image& truth, const Image& mask) {
-    double squares = 0, total = 0, count = 0;
-    for (int y = 0; y < truth.height(); ++y)
-        for (int x = 0; x < truth.width(); ++x)
-            for (int c = 0; c < 3 && (mask.width() == 0 || mask.at(x, y, 0) == 1); ++c) {
-                squares += sqr(double(image.at(x, y, c)) - truth.at(x, y, c));
-                total += truth.at(x, y, c);
-                ++count;
-            }
-    return total > 0 ? std::sqrt(squares / count) / (total / count) : 0;
-}
-
 json reportJson(const HybridReport& report, const HybridPictures& p) {
     json stages = json::object();
     for (const PassTime& stage : report.stages) stages[stage.name] = stage.wallSeconds;
@@ -77,8 +64,7 @@ json compareStages(const SceneDescription& scene, const HybridPictures& p, std::
                                  : traced                   ? truth.traced
                                                             : truth.blended);
         const Image mask = traced ? wholly(truth.tagged) : Image();
-        json& errors = out[stage.name] = differenceJson(compareImages(stage.drawn, stage.traced, 1, mask));
-        errors["rms_over_mean"] = rmsOverMean(stage.drawn, stage.traced, mask);
+        out[stage.name] = differenceJson(compareImages(stage.drawn, stage.traced, 1, mask));
     }
     return out;
 }

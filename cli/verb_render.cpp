@@ -87,8 +87,8 @@ json toJson(const SceneErrors& e) {
 }
 
 std::string errorText(const SceneErrors& e) {
-    std::string out =
-        fmt::format("against the reference: PSNR {:.2f} dB, relative RMSE {:.4f}\n", e.all.psnrSrgb, e.all.relative);
+    std::string out = fmt::format("against the reference: PSNR {:.2f} dB, relative RMSE {:.4f}, RMS/mean {:.4f}\n",
+                                  e.all.psnrSrgb, e.all.relative, e.all.rmsOverMean);
     out += fmt::format("  where meshes block the surrounding's light: PSNR {:.2f} dB, relative RMSE {:.4f}\n",
                        e.occluded.psnrSrgb, e.occluded.relative);
     if (e.shares.empty()) return out;

@@ -27,7 +27,7 @@ Rgb srgbOf(const Rgb& radiance, double white) {
 }
 
 struct Sums {
-    double linear = 0, srgb = 0, truth = 0, absolute = 0;
+    double linear = 0, srgb = 0, truth = 0, sum = 0, absolute = 0;
 };
 
 void accumulate(ImageDifference& out, Sums& sums, const Rgb& a, const Rgb& b, double white) {
@@ -38,6 +38,7 @@ void accumulate(ImageDifference& out, Sums& sums, const Rgb& a, const Rgb& b, do
     sums.linear += glm::dot(d, d);
     sums.srgb += glm::dot(encoded, encoded);
     sums.truth += glm::dot(b, b);
+    sums.sum += 3 * mean(b);
     sums.absolute += 3 * mean(glm::abs(d));
     out.maxAbs = std::max(out.maxAbs, maxComponent(glm::abs(d)));
 }
@@ -71,6 +72,7 @@ ImageDifference compareImages(const Image& image, const Image& truth, double whi
     out.psnrLinear = psnrOfMeanSquare(sums.linear / count / sqr(white));
     out.psnrSrgb = psnrOfMeanSquare(sums.srgb / count);
     out.relative = sums.linear == 0 ? 0 : std::sqrt(sums.linear / sums.truth);
+    out.rmsOverMean = sums.linear == 0 ? 0 : std::sqrt(sums.linear / count) / (sums.sum / count);
     out.meanAbs = sums.absolute / count;
     return out;
 }

@@ -14,10 +14,11 @@ double pictureWhite(const Image& truth, const Image& mask = {});
 
 /// All over the pixels inside the mask, colour channels pooled; a and b are the picture and the truth, w white.
 struct ImageDifference {
-    double psnrLinear = 0;  ///< −10 log10 mean(((a−b)/w)²) [dB], not clamped
-    double psnrSrgb = 0;    ///< the same of sRGB-encoded a/w and b/w, clamped to [0, 1]: what the eye sees
-    double relative = 0;    ///< √(Σ(a−b)² / Σb²)
-    double maxAbs = 0;      ///< of a−b [radiance]
+    double psnrLinear = 0;   ///< −10 log10 mean(((a−b)/w)²) [dB], not clamped
+    double psnrSrgb = 0;     ///< the same of sRGB-encoded a/w and b/w, clamped to [0, 1]: what the eye sees
+    double relative = 0;     ///< √(Σ(a−b)² / Σb²)
+    double rmsOverMean = 0;  ///< √mean((a−b)²) / mean(b); 0 for black against black
+    double maxAbs = 0;       ///< of a−b [radiance]
     double meanAbs = 0;
     std::uint64_t pixels = 0, nonFinite = 0;  ///< inside the mask; with a channel of a that is no finite number
 };

@@ -35,6 +35,8 @@ TEST(ImageCompare, FlatPicturesHaveClosedForms) {
     EXPECT_NEAR(d.psnrLinear, -10 * std::log10(sqr(0.25) / 3), kSinglePrecision);
     EXPECT_NEAR(d.psnrSrgb, -10 * std::log10(sqr(srgbEncode(0.25) - srgbEncode(0.5)) / 3), kSinglePrecision);
     EXPECT_NEAR(d.relative, 0.5 / std::sqrt(3), kSinglePrecision);
+    EXPECT_NEAR(compareImages(flat(Rgb(1.5, 2, 1)), flat(Rgb(2, 2, 1)), 2).rmsOverMean, 0.5 / std::sqrt(3) / (5.0 / 3),
+                kSinglePrecision);
     EXPECT_NEAR(d.maxAbs, 0.5, kSinglePrecision);
     EXPECT_NEAR(d.meanAbs, 0.5 / 3, kSinglePrecision);
     EXPECT_EQ(d.pixels, 12u);
@@ -44,7 +46,7 @@ TEST(ImageCompare, IdenticalPictures) {
     const ImageDifference d = compareImages(flat(Rgb(0)), flat(Rgb(0)), 1);
     EXPECT_EQ(d.psnrLinear, 200);
     EXPECT_EQ(d.psnrSrgb, 200);
-    EXPECT_EQ(d.relative + d.maxAbs + d.meanAbs, 0);
+    EXPECT_EQ(d.relative + d.rmsOverMean + d.maxAbs + d.meanAbs, 0);
 }
 
 TEST(ImageCompare, OnlyPixelsInsideTheMaskCount) {
