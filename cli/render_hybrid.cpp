@@ -107,43 +107,42 @@ HybridMaterials materialsOf(const SceneDescription& scene) {
 bool isHybrid(const HybridPictures& p) { return p.indirect || p.traced; }
 
 std::vector<Option> hybridOptions(HybridPictures& p) {
-    return {
-        {"--indirect", "METHOD", "Add light that another surface reflected, by virtual-lights",
-         [&p](const std::string& text) {
-             if (text != "virtual-lights")
-                 throw UsageError(fmt::format("--indirect: expected virtual-lights, found '{}'", text));
-             p.indirect = true;
-         }},
-        {"--virtual-lights", "N", "At most so many (default 64)",
-         integerInto([&p](long long v) { p.lights.count = static_cast<int>(v); }, 1, 65536)},
-        {"--virtual-shadows", "", "Surfaces block virtual lights' light", into(p.lights.shadows)},
-        {"--virtual-choice", "CHOICE",
-         "grouped (default): lights stand for groups of elements; strongest: for those that reflect most, and the\n"
-         "rest is left out",
-         [&p](const std::string& text) {
-             if (text != "grouped" && text != "strongest")
-                 throw UsageError(fmt::format("--virtual-choice: expected grouped or strongest, found '{}'", text));
-             p.lights.choice = text == "grouped" ? VirtualLightChoice::Grouped : VirtualLightChoice::Strongest;
-         }},
-        {"--virtual-near", "SHAPE",
-         "Near by they are a rectangle (default), a disk or a point, which has a singularity",
-         [&p](const std::string& text) {
-             if (text != "rectangle" && text != "disk" && text != "point")
-                 throw UsageError(fmt::format("--virtual-near: expected rectangle, disk or point, found '{}'", text));
-             p.lights.near = text == "point"  ? NearLight::Point
-                             : text == "disk" ? NearLight::Disk
-                                              : NearLight::Rectangle;
-         }},
-        {"--elements", "N", "That surfaces are cut into, at least (default 32768)",
-         integerInto([&p](long long v) { p.lights.elements.least = static_cast<int>(v); }, 1, 1 << 24)},
-        {"--specular", "METHOD",
-         "Mirrors and panes by views (default; planar ones), or traced: rays on the CPU, curved ones too",
-         [&p](const std::string& text) {
-             if (text != "views" && text != "traced")
-                 throw UsageError(fmt::format("--specular: expected views or traced, found '{}'", text));
-             p.traced = text == "traced";
-         }},
-        {"--stages", "", "Write each stage beside the output, and with --reference its truth", into(p.stages)}};
+    return {{"--indirect", "METHOD", "Add light that another surface reflected, by virtual-lights",
+             [&p](const std::string& text) {
+                 if (text != "virtual-lights")
+                     throw UsageError(fmt::format("expected virtual-lights, found '{}'", text));
+                 p.indirect = true;
+             }},
+            {"--virtual-lights", "N", "At most so many (default 64)",
+             integerInto([&p](long long v) { p.lights.count = static_cast<int>(v); }, 1, 65536)},
+            {"--virtual-shadows", "", "Surfaces block virtual lights' light", into(p.lights.shadows)},
+            {"--virtual-choice", "CHOICE",
+             "grouped (default): lights stand for groups of elements; strongest: for those that reflect most, and the\n"
+             "rest is left out",
+             [&p](const std::string& text) {
+                 if (text != "grouped" && text != "strongest")
+                     throw UsageError(fmt::format("expected grouped or strongest, found '{}'", text));
+                 p.lights.choice = text == "grouped" ? VirtualLightChoice::Grouped : VirtualLightChoice::Strongest;
+             }},
+            {"--virtual-near", "SHAPE",
+             "Near by they are a rectangle (default), a disk or a point, which has a singularity",
+             [&p](const std::string& text) {
+                 if (text != "rectangle" && text != "disk" && text != "point")
+                     throw UsageError(fmt::format("expected rectangle, disk or point, found '{}'", text));
+                 p.lights.near = text == "point"  ? NearLight::Point
+                                 : text == "disk" ? NearLight::Disk
+                                                  : NearLight::Rectangle;
+             }},
+            {"--elements", "N", "That surfaces are cut into, at least (default 32768)",
+             integerInto([&p](long long v) { p.lights.elements.least = static_cast<int>(v); }, 1, 1 << 24)},
+            {"--specular", "METHOD",
+             "Mirrors and panes by views (default; planar ones), or traced: rays on the CPU, curved ones too",
+             [&p](const std::string& text) {
+                 if (text != "views" && text != "traced")
+                     throw UsageError(fmt::format("expected views or traced, found '{}'", text));
+                 p.traced = text == "traced";
+             }},
+            {"--stages", "", "Write each stage beside the output, and with --reference its truth", into(p.stages)}};
 }
 
 void renderHybrid(const Context& context, SceneDescription scene, const HybridPictures& p) {

@@ -15,21 +15,21 @@ namespace nacre::cli {
 ShadowMethod shadowMethodOf(const std::string& text) {
     if (text == "maps") return ShadowMethod::Maps;
     if (text == "volumes") return ShadowMethod::Volumes;
-    throw UsageError(fmt::format("--shadows: expected maps or volumes, found '{}'", text));
+    throw UsageError(fmt::format("expected maps or volumes, found '{}'", text));
 }
 
 SoftShadows softShadowsOf(const std::string& text) {
     if (text == "regenerated") return SoftShadows::Regenerated;
     if (text == "pivot") return SoftShadows::Pivot;
     if (text == "levels") return SoftShadows::Levels;
-    throw UsageError(fmt::format("--soft: expected regenerated, pivot or levels, found '{}'", text));
+    throw UsageError(fmt::format("expected regenerated, pivot or levels, found '{}'", text));
 }
 
 int qualityOf(const std::string& text) {
     try {
         return qualityFromString(text);
     } catch (const std::invalid_argument& error) {
-        throw UsageError(fmt::format("--quality: {}", error.what()));
+        throw UsageError(error.what());
     }
 }
 

@@ -20,6 +20,7 @@
 #include "shading/context.hpp"
 #include "shading/image_output.hpp"
 #include "shading/multipass/quality.hpp"
+#include "shading/multipass/specular_face.hpp"
 #include "shading/scene_file.hpp"
 
 namespace nacre::cli {
@@ -120,9 +121,16 @@ SceneSwitches switchesFor(const Settings& s, const SceneDescription& scene) {
 }
 
 void runHybrid(const Context& context, const Settings& s, SceneDescription scene) {
-    if (s.shares || s.shot.interreflection)
-        throw UsageError("--indirect: expected neither --shares nor --radiosity beside it");
     HybridPictures p = s.hybrid;
+    for (const auto& [given, flag] : {std::pair(s.shares, "--shares"),
+                                      {s.shot.interreflection, "--radiosity"},
+                                      {s.lightPaths.has_value(), "--light-paths"},
+                                      {s.quality != 0, "--quality"}})
+        if (given)
+            throw UsageError(fmt::format("{}: expected neither --indirect nor --specular traced beside it", flag));
+    if (!p.traced && hasSpecular(scene))
+        throw UsageError(
+            "--indirect: expected --specular traced beside it in a scene with mirrors or panes, found none");
     p.output = s.output, p.shot = s.shot, p.white = s.white, p.rays = s.rays, p.switches = s.switches;
     p.reference = s.reference, p.asJson = s.asJson;
     renderHybrid(context, std::move(scene), p);
@@ -142,6 +150,8 @@ void runRender(const Context& context, const Settings& s) {
     reading.needAssets = !s.passes;
     SceneDescription scene = readScene(s.scene, reading);
     if (s.passes) {
+        if (isHybrid(s.hybrid))
+            throw UsageError("--passes: expected neither --indirect nor --specular traced beside it");
         endProgress();
         return putData(passList(scene, s.shot, atQuality(switchesFor(s, scene), s.quality), s.asJson));
     }

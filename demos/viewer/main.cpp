@@ -2,7 +2,9 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <cmath>
 #include <cstdio>
+#include <cstdlib>
 #include <thread>
 
 #include "core/error.hpp"
@@ -61,7 +63,12 @@ int run(int argc, char** argv) {
         ->check(CLI::Range(1, 16));
     cli.add_option("--target-ms", targetMs,
                    "Of a frame while the picture moves: quality gives way, and comes back at rest (default: none)")
-        ->check(CLI::Range(0.1, 1e5));
+        ->check(CLI::Range(0.1, 1e5) & CLI::Validator(
+                                           [](const std::string& text) {
+                                               const bool number = std::isfinite(std::strtod(text.c_str(), nullptr));
+                                               return number ? std::string() : "expected a time, found " + text;
+                                           },
+                                           "FINITE"));
     cli.add_flag("--no-panel", noPanel, "Without the panel (Tab brings it)");
     cli.add_option("--benchmark", options.benchmark, "Draw N frames, print their times as JSON, and close")
         ->check(CLI::Range(1, 100000));

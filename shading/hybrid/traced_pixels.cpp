@@ -22,7 +22,7 @@ void checkTraceable(const SceneDescription& scene) {
         if (!m.specular) continue;
         const SceneSpecular& s = *m.specular;
         if (s.scatters() || s.fogDistance > 0 || s.texture || s.surface > 0)
-            fail("a clear specular surface, without spread, fog, texture and own light");
+            fail("a clear specular surface, without spread, roughness, fog, texture and own light");
     }
 }
 

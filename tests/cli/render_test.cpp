@@ -220,12 +220,25 @@ TEST(CommandRender, InStages) {
     EXPECT_LT(data["errors"]["indirect"]["rms_over_mean"], 0.2) << "64 lights; the truth has 256 paths a pixel";
     EXPECT_LT(data["errors"]["traced"]["relative_rmse"], 0.05);
     EXPECT_GT(data["errors"]["blended"]["psnr"], 35);
+    const auto refused = [&](const std::vector<std::string>& more, const std::string& words) {
+        std::vector<std::string> all = {"render", scene, "-o", scratch / "refused.png", "--indirect", "virtual-lights"};
+        all.insert(all.end(), more.begin(), more.end());
+        const Outcome outcome = nacre(all);
+        EXPECT_EQ(outcome.code, 2) << outcome.err;
+        EXPECT_THAT(outcome.err, HasSubstr(words));
+        EXPECT_FALSE(std::filesystem::exists(scratch / "refused.png"));
+    };
+    refused({}, "--indirect: expected --specular traced beside it in a scene with mirrors or panes");
+    for (const char* flag : {"--radiosity", "--shares", "--passes"})
+        refused({"--specular", "traced", flag}, std::string(flag) + ": expected neither --indirect");
+    refused({"--specular", "traced", "--quality", "low"}, "--quality: expected neither");
+    refused({"--specular", "traced", "--light-paths", "1"}, "--light-paths: expected neither");
     for (const char* stage : {"", "-direct", "-indirect", "-traced"})
         for (const char* what : {"", "-reference", "-difference"})
             EXPECT_TRUE(std::filesystem::exists(scratch / (std::string("s") + stage + what + ".png"))) << stage << what;
     EXPECT_EQ(nacre({"render", scene, "-o", scratch / "v.png"}).code, 1) << "views of planar mirrors alone";
-    const Outcome many =
-        nacre({"render", scene, "-o", scratch / "m.png", "--indirect", "virtual-lights", "--elements", "16777216"});
+    const Outcome many = nacre({"render", scene, "-o", scratch / "m.png", "--indirect", "virtual-lights", "--elements",
+                                "16777216", "--specular", "traced"});
     EXPECT_EQ(many.code, 1);
     EXPECT_THAT(many.err, HasSubstr("item buffer: expected at most 16777215 elements, which 24 bits tell apart"));
     EXPECT_FALSE(std::filesystem::exists(scratch / "m.png"));
