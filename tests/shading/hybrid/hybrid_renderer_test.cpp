@@ -120,6 +120,7 @@ TEST(HybridRenderer, AnEmptyRoomIsBlack) {
 }
 
 TEST(VirtualLightGlsl, IsItsTwin) {
+    test::context();
     const std::vector<DirectionPair> pairs = test::testPairs(200);
     const char* kNear[] = {"NACRE_VIRTUAL_POINT", "NACRE_VIRTUAL_DISK", "NACRE_VIRTUAL_RECTANGLE"};
     for (const NearLight near : {NearLight::Point, NearLight::Disk, NearLight::Rectangle})
