@@ -170,7 +170,7 @@ TEST(CommandRender, ShadowsByVolumes) {
     ASSERT_EQ(radiosity.code, 0) << radiosity.err;
     EXPECT_LE(json::parse(radiosity.out)["radiosity"]["left"], 1);
     for (const auto& [flag, words] :
-         {std::pair{"--shadows", "maps or volumes"}, {"--soft", "regenerated, pivot or levels"}}) {
+         {std::pair{"--shadows", "expected maps, volumes"}, {"--soft", "regenerated, pivot or levels"}}) {
         const Outcome wrong = nacre({"render", sceneFile(scratch), "-o", scratch / "w.png", flag, "blurred"});
         EXPECT_EQ(wrong.code, 2);
         EXPECT_THAT(wrong.err, HasSubstr(words));
