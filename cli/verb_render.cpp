@@ -136,6 +136,15 @@ void runHybrid(const Context& context, const Settings& s, SceneDescription scene
     renderHybrid(context, std::move(scene), p);
 }
 
+/// What draws faces that views can't.
+void checkPlanar(const SceneDescription& scene) {
+    try {
+        checkPlanarFaces(scene);
+    } catch (const Error& error) {
+        throw Error(fmt::format("{}; --specular traced draws curved meshes", error.what()));
+    }
+}
+
 void runRender(const Context& context, const Settings& s) {
     if (s.output.empty() && !s.passes) throw UsageError("--output: expected a name, found none");
     if (isTransferFile(s.scene)) return runTransferFile(context, s);
@@ -152,10 +161,12 @@ void runRender(const Context& context, const Settings& s) {
     if (s.passes) {
         if (isHybrid(s.hybrid))
             throw UsageError("--passes: expected neither --indirect nor --specular traced beside it");
+        checkPlanar(scene);
         endProgress();
         return putData(passList(scene, s.shot, atQuality(switchesFor(s, scene), s.quality), s.asJson));
     }
     if (isHybrid(s.hybrid)) return runHybrid(context, s, std::move(scene));
+    checkPlanar(scene);
     const SceneSwitches switches = switchesFor(s, scene);
     const nacre::Context gl(GlApi::Core33);
     ProgramLoader loader;

@@ -56,6 +56,8 @@ std::vector<ScheduledLight> scheduledLights(const SceneDescription& scene, const
                 image.light = lamp.light;
                 image.point = k;
                 out.push_back({lamp.light, std::move(image)});
+                if (out.size() > on.specular.most)
+                    throw Error(fmt::format("light paths: expected at most {}, found more", on.specular.most));
             }
     }
     if (out.empty() && !countsShadows(on)) return out;

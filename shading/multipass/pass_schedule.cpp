@@ -14,6 +14,9 @@ namespace {
 /// A window smaller than this, on a picture of edge 2, has no sample of a picture of 16384².
 constexpr double kLeastArea = 1e-10;
 
+/// Passes for each view that options allow: each adds all lights.
+constexpr std::size_t kPassesAView = 25;
+
 /// What may leave a face on the way back from the eye.
 struct Branch {
     Bounce bounce;
@@ -73,6 +76,11 @@ private:
         const int level = at(view).level;
         out_.deepest = std::max(out_.deepest, level);
         add(PassKind::Surfaces, view, -1, level, at(view).scissor);
+        if (out_.passes.size() + out_.lights.size() > kPassesAView * options_.most)
+            throw Error(
+                fmt::format("specular views: expected at most {} passes, found more at depth {} with {} lights "
+                            "in each view",
+                            kPassesAView * options_.most, options_.depth, out_.lights.size()));
         for (std::size_t i = 0; i < out_.lights.size(); ++i) {
             add(PassKind::Light, view, -1, level, at(view).scissor);
             out_.passes.back().light = static_cast<int>(i);
@@ -104,7 +112,7 @@ private:
             next.parent = view;
             next.face = face;
             next.bounce = branch.bounce;
-            next.light = {at(view).light.factor * branch.factor, specular.fog, specular.fogDistance};
+            next.light = {at(view).light.factor * branch.factor, specular.fog, specular.fogDistance, {}};
             next.weighted = at(view).weighted || at(view).light.fogDistance > 0 || branch.weighted ||
                             (specular.texture && specular.surface > 0);
             next.shear = branch.shear;
@@ -115,6 +123,7 @@ private:
             if (out_.views.size() == options_.most)
                 throw Error(fmt::format("specular views: expected at most {}, found more at depth {}", options_.most,
                                         options_.depth));
+            next.light.filters = filtersOf(next);
             const int index = static_cast<int>(out_.views.size());
             out_.views.push_back(std::move(next));
             add(PassKind::Clear, view, face, level + 1, scissor);
@@ -124,6 +133,22 @@ private:
             adds = true;
         }
         add(PassKind::Unmask, view, face, level + 1, scissor);
+    }
+
+    /// Each face's point is the one that the next view, or what is seen, is projected onto it.
+    std::vector<PlacedImage> filtersOf(const ScheduledView& seen) {
+        std::vector<PlacedImage> out;
+        glm::dmat4 onto(1);
+        for (const ScheduledView* v = &seen; v->parent >= 0; v = &at(v->parent)) {
+            const SpecularFace& face = faceAt(v->face);
+            onto = projectionFrom(v->view.eye, face.plane) * onto;
+            if (face.specular.filter && filtersLight(face.specular, v->bounce))
+                out.push_back(placedImage(face.image, onto));
+        }
+        if (out.size() > static_cast<std::size_t>(kMostFilters))
+            throw Error(fmt::format("specular views: expected at most {} faces with a filter on a path, found {}",
+                                    kMostFilters, out.size()));
+        return out;
     }
 
     void dropHidden(std::vector<int> path, int face, std::vector<Branch>& branches) const {

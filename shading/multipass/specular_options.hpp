@@ -25,6 +25,7 @@ enum class ShearSampling {
 };
 
 inline constexpr int kMostLightBounces = 4;
+inline constexpr int kMostFilters = 8;  ///< faces with a SceneSpecular::filter on a path from the eye
 
 struct SpecularOptions {
     int depth = 4;       ///< specular surfaces along a path from the eye, ≥ 0

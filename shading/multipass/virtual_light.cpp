@@ -65,6 +65,7 @@ public:
                 if (found.size() == most_)
                     throw Error(fmt::format("light paths: expected at most {}, found more", most_));
                 found.push_back(next.light);
+                placeImages(found.back());
                 follow(next, left - 1);
             }
         }
@@ -73,6 +74,26 @@ public:
     std::vector<VirtualLight> found;
 
 private:
+    /// From what is lit back to the lamp: each face's point is the next one's, or what is lit, seen from the stage.
+    void placeImages(VirtualLight& light) const {
+        glm::dmat4 onto(1);
+        bool any = false;
+        for (std::size_t k = light.bounces.size(); k-- > 0;) {
+            const SpecularFace& face = faces_[static_cast<std::size_t>(light.bounces[k].face)];
+            const LightStage& after = light.stages[k + 1];
+            const SceneSpecular& s = face.specular;
+            const Vec4 height = s.fogDistance > 0 ? after.within.front() / s.fogDistance * onto : Vec4(0);
+            onto = projectionFrom(after.source, face.plane) * onto;
+            PlacedImage image = placedImage(face.image, onto);
+            for (int c = 0; c < 4; ++c) image.place[c][3] = height[c];
+            image.filters = s.filter && filtersLight(s, light.bounces[k].how);
+            image.surface = s.texture ? s.surface : 0;
+            any = any || image.filters || image.surface > 0 || s.fogDistance > 0;
+            light.images.push_back(image);
+        }
+        if (!any) light.images.clear();
+    }
+
     /// What the beam lights of a face: its outline, cut by the planes through the source and the beam's edges.
     static std::vector<Vec3> litOf(const Beam& beam, const SpecularFace& face) {
         std::vector<Vec3> lit = face.outline;
@@ -95,7 +116,7 @@ private:
         const SpecularFace& f = faces_[static_cast<std::size_t>(face)];
         const SceneSpecular& s = f.specular;
         const bool reflects = how == Bounce::Reflected;
-        const double rest = 1 - s.surface, eta = !s.ior ? 1 : side > 0 ? *s.ior : 1 / *s.ior;
+        const double rest = s.texture ? 1 : 1 - s.surface, eta = !s.ior ? 1 : side > 0 ? *s.ior : 1 / *s.ior;
         const Rgb factor = rest * (reflects ? s.reflection : s.transmission);
         if (factor == Rgb(0) || (!s.ior && !reflects)) return false;
         const Vec4 source = light.stages.back().source;

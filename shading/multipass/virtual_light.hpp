@@ -43,9 +43,12 @@ struct VirtualLight {
     std::size_t light = 0, point = 0;  ///< of the scene, and of its area
     std::vector<LightBounce> bounces;  ///< none: the lamp itself
     std::vector<LightStage> stages;    ///< one more
-    Light seen;  ///< at the last stage's source; its color has all factors but `weighed` and 1 / |toLamp d|³ in the
-                 ///< direction d; its cone is the lamp's own
+    Light seen;  ///< at the last stage's source; its color has all factors but `weighed`, `images` and
+                 ///< 1 / |toLamp d|³ in the direction d; its cone is the lamp's own
     std::vector<WeighedBounce> weighed;
+    /// Of the faces' pictures and fog, the last face first; none where no face has any. Row h of a place over the w of
+    /// the entry before, of the first over 1, is what share fog takes behind the face.
+    std::vector<PlacedImage> images;
     Mat3 toLamp{1};  ///< takes the direction to it to that in which the lamp is seen, up to length
 };
 

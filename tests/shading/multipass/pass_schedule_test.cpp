@@ -133,6 +133,25 @@ TEST(PassSchedule, TooManyViewsAreReported) {
     EXPECT_THROW(scheduleOf(test::hallOfMirrors(), options), Error);
 }
 
+/// Each view adds all lights: a list with few views can be too long to draw, and to wait for.
+TEST(PassSchedule, TooManyLightsInAllViewsAreReported) {
+    const SceneDescription scene = test::hallOfMirrors();
+    ScheduleInput input{scene.camera, 64, 64, Vec3(-5), Vec3(5), {}};
+    input.lights.resize(100);
+    SpecularOptions options;
+    options.most = 9;
+    const auto faces = specularFaces(scene, nodeTransforms(scene, 0));
+    options.depth = 1;
+    EXPECT_NO_THROW(makeSchedule(faces, input, options));
+    options.depth = 2;
+    try {
+        makeSchedule(faces, input, options);
+        FAIL();
+    } catch (const Error& error) {
+        EXPECT_THAT(error.what(), HasSubstr("expected at most 225 passes, found more at depth 2 with 100 lights"));
+    }
+}
+
 TEST(PassSchedule, CounterLeavesRoomForShadows) {
     constexpr StencilCounter counter;
     EXPECT_EQ(counter.shadowMin(), 128);
