@@ -111,12 +111,9 @@ void runTransferFile(const Context& context, const Settings& s) {
     renderTransfer(context, p);
 }
 
-/// Without --light-paths: those that lead past a thick pane, where nothing forbids them.
 SceneSwitches switchesFor(const Settings& s, const SceneDescription& scene) {
     SceneSwitches out = s.switches;
-    const bool volumes =
-        std::any_of(scene.nodes.begin(), scene.nodes.end(), [](const SceneNode& node) { return node.volume >= 0; });
-    out.specular.lightDepth = s.lightPaths.value_or(volumes ? 0 : 2);
+    out.specular.lightDepth = s.lightPaths.value_or(usualLightDepth(scene));
     return out;
 }
 

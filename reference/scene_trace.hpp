@@ -31,7 +31,7 @@ struct SceneTraceOptions {
     std::vector<Vec2> points{};     ///< of a pixel's rays, from its upper left corner to (1, 1); none: the grid
     double time = 0;                ///< [s]
     int specularDepth = 4;          ///< specular surfaces along a path; the last shows its own light alone
-    int lightDepth = 0;             ///< the same along a path from a light; 0: they block and send nothing on
+    int lightDepth = 2;             ///< the same along a path from a light; 0: they block and send nothing on
     int spreadRays = 16;            ///< of a ray that meets a frosted or glossy one
     int skyRays = 4;                ///< of a ray, into a relief's sky: what of the diffuse and ambient light is blocked
     int indirectPaths = 4;          ///< of a ray

@@ -513,6 +513,7 @@ static void requireVersion() {
 SceneRenderer::SceneRenderer(ProgramLoader& loader, SceneDescription scene) {
     requireVersion();
     state_ = std::make_unique<State>(loader, std::move(scene));
+    switches.specular.lightDepth = usualLightDepth(state_->scene);
 }
 SceneRenderer::~SceneRenderer() = default;
 SceneRenderer::SceneRenderer(SceneRenderer&&) noexcept = default;

@@ -29,7 +29,7 @@ inline constexpr int kMostFilters = 8;  ///< faces with a SceneSpecular::filter 
 
 struct SpecularOptions {
     int depth = 4;       ///< specular surfaces along a path from the eye, ≥ 0
-    int lightDepth = 0;  ///< specular surfaces along a path from a lamp with a SceneShadow, 0 to kMostLightBounces;
+    int lightDepth = 2;  ///< specular surfaces along a path from a lamp with a SceneShadow, 0 to kMostLightBounces;
                          ///< 0: they block such light and send none on
     RefractionAngle angle = RefractionAngle::WindowCentre;
     RefractedEye eye = RefractedEye::OnNormal;
