@@ -15,10 +15,10 @@ struct LightArrival {
     Rgb irradiance{0};  ///< on a facing surface
 };
 
-/// Chains of at most `depth` faces. A face takes part when its node casts shadows and nothing scatters there (frosted,
-/// glossy, rough); what isn't blocked by a face isn't sent on by it. Directions and points of light are exact: mirrored
-/// or, by Fermat's principle, refracted; flux is conserved, with Fresnel's shares, tints, filters, and fog, the own
-/// light's share and textures' alpha taken off.
+/// Chains of at most `depth` faces. A face takes part when its node casts shadows and nothing scatters there
+/// (scattered_light.hpp); what isn't blocked by a face isn't sent on by it. Directions and points of light are exact:
+/// mirrored or, by Fermat's principle, refracted; flux is conserved, with Fresnel's shares, tints, filters, and fog,
+/// the own light's share and textures' alpha taken off.
 class LightPaths {
 public:
     /// All outlive this. \param nodes  nodeTransforms' result

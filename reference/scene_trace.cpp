@@ -12,6 +12,7 @@
 #include "core/sampling.hpp"
 #include "reference/camera_rays.hpp"
 #include "reference/light_path.hpp"
+#include "reference/scattered_light.hpp"
 #include "reference/specular_path.hpp"
 
 namespace nacre {
@@ -124,6 +125,7 @@ public:
           areas_(areasInWorld(scene, nodes_)),
           surfaces_(scene, nodes_),
           paths_(scene, nodes_, surfaces_, options.lightDepth),
+          scattered_(scene, nodes_, surfaces_),
           rays_(options.points.empty() ? CameraRays(camera, options.width, options.height, options.supersample)
                                        : CameraRays(camera, options.width, options.height, options.points)),
           turn_(Mat3(glm::rotate(glm::dmat4(1), -scene.sky.rotationY, Vec3(0, 1, 0)))) {
@@ -280,6 +282,10 @@ private:
             std::vector<LightArrival>& found = p.arrivals[i].emplace();
             paths_.follow(light, p.s.position, scene_.nodes[p.node].receivesShadow,
                           [&](const LightArrival& arrival) { found.push_back(arrival); });
+            if (options_.lightDepth > 0 && !scattered_.empty())
+                scattered_.follow(light, p.s.position, scene_.nodes[p.node].receivesShadow, options_.facePoints,
+                                  sequence(p, 32 + i, options_.facePoints),
+                                  [&](const LightArrival& arrival) { found.push_back(arrival); });
         }
         const Vec3 wo = toLocal(frame, p.s.toEye);
         Rgb sum(0);
@@ -424,6 +430,7 @@ private:
     std::vector<std::optional<LightArea>> areas_;
     SceneRays surfaces_;
     LightPaths paths_;
+    ScatteredLight scattered_;
     CameraRays rays_;
     Mat3 turn_;
     bool occlusion_ = false;
@@ -435,7 +442,7 @@ std::vector<Image> traceScene(const SceneDescription& scene, const Camera& camer
                               const std::vector<SceneParts>& parts, const SceneTraceOptions& options) {
     require(options.width >= 1 && options.height >= 1 && options.supersample >= 1 && options.skyRays >= 1 &&
                 options.indirectPaths >= 1 && options.occlusionRays >= 1 && options.lightPoints >= 1 &&
-                options.interreflectionPaths >= 1 && options.interreflectionBounces >= 1 &&
+                options.interreflectionPaths >= 1 && options.interreflectionBounces >= 1 && options.facePoints >= 1 &&
                 options.specularDepth >= 0 && options.lightDepth >= 0 && options.spreadRays >= 1,
             "traceScene: sizes and numbers of rays must be >= 1, depths >= 0");
     require(truths.materials.size() == scene.materials.size(), "traceScene: expected a truth for each material");

@@ -97,7 +97,7 @@ void LightPasses::addImage(const LitTarget& to, const VirtualLight& image, std::
 }
 
 bool needsLightPath(const VirtualLight& image) {
-    return !image.weighed.empty() || (!image.seen.directional && isRefracted(image));
+    return !image.weighed.empty() || (!image.seen.directional && (isRefracted(image) || image.shear >= 0));
 }
 
 ShaderDefines lightPathDefines(const VirtualLight& image) {

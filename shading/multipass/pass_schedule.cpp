@@ -26,25 +26,6 @@ struct Branch {
     int shear = -1;
 };
 
-double random(std::uint64_t i) {  // SplitMix64
-    std::uint64_t z = (i + 1) * 0x9e3779b97f4a7c15u;
-    z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
-    z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
-    return static_cast<double>((z ^ (z >> 31)) >> 11) * 0x1p-53;
-}
-
-/// Sample i of two independent standard Gaussians (Box and Muller's).
-Vec2 gaussian(int i, ShearSampling sampling) {
-    const auto k = static_cast<std::uint64_t>(i);
-    Vec2 u(random(2 * k), random(2 * k + 1));
-    if (sampling == ShearSampling::LowDiscrepancy) {
-        u = 0.5 + Vec2(0.7548776662466927, 0.5698402909980532) * double(i + 1);
-        u -= glm::floor(u);
-    }
-    const double radius = std::sqrt(-2 * std::log1p(-u.x));
-    return radius * Vec2(std::cos(2 * kPi * u.y), std::sin(2 * kPi * u.y));
-}
-
 int stepOf(int face, Bounce bounce) { return 2 * face + (bounce == Bounce::Refracted ? 1 : 0); }
 
 class Scheduler {
@@ -253,8 +234,8 @@ private:
             for (int i = 0; i < count; ++i) {
                 // A second face takes its samples in another order.
                 const int sample = before < 0 ? i : (before * 7 + 3) % options_.shears;
-                const Vec2 facet = gaussian(sample, options_.sampling);
-                FacetShear shear{face.specular.spread * facet, 1};
+                const Vec2 facet = facetSample(sample, options_.sampling);
+                FacetShear shear{face.specular.spread * facet, 1, {}};
                 if (face.specular.roughness > 0) {
                     std::optional<double> eta;
                     if (branch.bounce == Bounce::Refracted)
