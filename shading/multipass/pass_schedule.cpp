@@ -63,11 +63,28 @@ private:
                             "in each view",
                             kPassesAView * options_.most, options_.depth, out_.lights.size()));
         for (std::size_t i = 0; i < out_.lights.size(); ++i) {
+            if (!mayLight(view, out_.lights[i])) continue;
             add(PassKind::Light, view, -1, level, at(view).scissor);
             out_.passes.back().light = static_cast<int>(i);
         }
         if (level == options_.depth) return;
         for (std::size_t f = 0; f < out_.faces.size(); ++f) drawFace(view, static_cast<int>(f));
+    }
+
+    /// False where all that is seen behind the view's face is behind the plane from which an image's light goes on.
+    bool mayLight(int view, const ScheduledLight& light) {
+        const ScheduledView& seen = at(view);
+        if (!light.image || seen.parent < 0) return true;
+        const Plane& ahead = light.image->stages.back().within.front();
+        const Vec4 eye = seen.view.eye;
+        for (const Vec2& place : seen.window) {
+            const auto p = planePointAt(at(seen.parent).view, faceAt(seen.face).plane, place);
+            if (!p) return true;
+            const Vec3 along = glm::normalize(*p * eye.w - Vec3(eye));
+            const double rounding = 1e-9 * (1 + glm::length(*p));
+            if (glm::dot(ahead, Vec4(*p, 1)) > rounding || glm::dot(Vec3(ahead), along) > 1e-9) return true;
+        }
+        return false;
     }
 
     void drawFace(int view, int face) {
