@@ -45,9 +45,9 @@ public:
     /// "2 lights in 5 views, 31 volumes of 12 kB"
     std::string counts() const {
         const ShadowVolumeCounts volumes = renderer_.shadowVolumes();
-        return fmt::format("{} lights in each of {} views, {} stored volumes of {:.0f} kB",
-                           renderer_.schedule().lights.size(), renderer_.schedule().views.size(),
-                           volumes.made + volumes.kept, static_cast<double>(volumes.bytes) / 1e3);
+        return fmt::format("{} lights in {} views, {} stored volumes of {:.0f} kB", renderer_.schedule().lights.size(),
+                           renderer_.schedule().views.size(), volumes.made + volumes.kept,
+                           static_cast<double>(volumes.bytes) / 1e3);
     }
 
 private:
