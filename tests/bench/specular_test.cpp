@@ -30,7 +30,8 @@ TEST(SpecularBars, ErrorsOfAQuickRunHold) {
     for (const Bar& bar : measureSpecularBars({.quick = true, .loader = &loader, .scenes = kScenes})) {
         ASSERT_TRUE(bar.measured) << bar.what;
         if (bar.figure == "seconds a frame" || bar.figure == "times the frame's") continue;
-        if (bar.what == "stored shadow volumes") continue;  // known to miss (bench prints it)
+        // A third of a cube's edges is its silhouette: that scene's few polygons miss the bar, as bench prints.
+        if (bar.what == "stored shadow volumes, light-regions") continue;
         EXPECT_TRUE(bar.pass()) << bar.what << ", " << bar.figure << ": " << bar.value << ", " << bar.worst;
     }
 }
