@@ -195,6 +195,7 @@ void runTransfer(const Arguments& arguments, const Progress& progress, Report& r
 
 void runSpecular(const Arguments& arguments, const Progress& progress, Report& report) {
     std::optional<HeadlessGpu> gpu = openGpu<HeadlessGpu>(arguments, report.notes);
+    if (gpu && report.renderer.empty()) report.renderer = gpu->context.description();
     const SpecularSweepOptions options{arguments.quick, gpu ? &gpu->loader : nullptr, arguments.scenes, progress};
     if (!arguments.noBars) {
         const std::vector<Bar> bars = measureSpecularBars(options);

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <functional>
 
 #include "bench/specular_lab.hpp"
@@ -78,7 +79,7 @@ Knob lightDepths(const std::string& scene, int most) {
     Knob out{scene, "light depth", withVolumes(SpecularOptions().depth, most), {}};
     for (int depth = 0; depth <= most; ++depth) {
         out.settings.push_back({fmt::format("{} faces", depth), withVolumes(SpecularOptions().depth, depth),
-                                depth == SpecularOptions().lightDepth});
+                                depth == std::min(most, SpecularOptions().lightDepth)});
     }
     return out;
 }
