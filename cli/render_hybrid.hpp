@@ -17,9 +17,11 @@ struct HybridPictures {
     int rays = 4;
     SceneSwitches switches;
     bool reference = false, asJson = false;
-    bool indirect = false;  ///< by virtual lights
-    bool traced = false;    ///< specular pixels
-    bool stages = false;    ///< each a picture beside the output
+    bool indirect = false;                       ///< by virtual lights
+    bool traced = false;                         ///< specular pixels
+    std::optional<SampledShadowMethod> shadows;  ///< as levels of each pixel; points: switches.lightPoints
+    int repeats = 0;                             ///< frames drawn again, for their time
+    bool stages = false;                         ///< each a picture beside the output
     VirtualLightOptions lights;
 };
 

@@ -35,6 +35,10 @@ inline constexpr int kFaceImagesUnit = kShadowUnit + 8;
 /// What programs that draw a virtual viewpoint's surfaces are loaded with, NACRE_VIEW apart.
 ShaderDefines viewDefines(const ViewLight& light);
 
+/// Uniforms of nacre/bind/light_levels.glsl: an array texture, at kShadowUnit, as there are no maps beside it. Leaves
+/// `program` in use.
+void bindLightLevels(const Program& program, GlName texture);
+
 /// Uniforms of nacre/bind/model.glsl. Leaves `program` in use. \throws std::invalid_argument unless toWorld is finite
 void setModel(const Program& program, const glm::dmat4& toWorld);
 
