@@ -26,7 +26,9 @@ namespace fs = std::filesystem;
 struct Arguments {
     std::string out = "build/bench", shared;
     std::vector<int> sourceSizes;
-    std::vector<std::string> materials, techniques = {"factored", "environment", "bump", "shadow", "transfer"};
+    std::vector<std::string> materials,
+        techniques = {"factored", "environment", "bump", "shadow", "transfer", "specular"};
+    std::string scenes = NACRE_SCENE_FOLDER;
     bool quick = false, barsOnly = false, noBars = false, noGpu = false, quiet = false, list = false;
 };
 
@@ -191,6 +193,17 @@ void runTransfer(const Arguments& arguments, const Progress& progress, Report& r
     if (!arguments.barsOnly) report.transfers = sweepTransfer(list.meshes, options);
 }
 
+void runSpecular(const Arguments& arguments, const Progress& progress, Report& report) {
+    std::optional<HeadlessGpu> gpu = openGpu<HeadlessGpu>(arguments, report.notes);
+    if (gpu && report.renderer.empty()) report.renderer = gpu->context.description();
+    const SpecularSweepOptions options{arguments.quick, gpu ? &gpu->loader : nullptr, arguments.scenes, progress};
+    if (!arguments.noBars) {
+        const std::vector<Bar> bars = measureSpecularBars(options);
+        report.bars.insert(report.bars.end(), bars.begin(), bars.end());
+    }
+    if (!arguments.barsOnly) report.speculars = sweepSpecular(options);
+}
+
 int run(const Arguments& arguments) {
     const auto start = std::chrono::steady_clock::now();
     const Progress progress = progressOn(arguments.quiet);
@@ -214,6 +227,7 @@ int run(const Arguments& arguments) {
     if (wants(arguments, "bump")) runBump(arguments, progress, report);
     if (wants(arguments, "shadow")) runShadow(arguments, progress, report);
     if (wants(arguments, "transfer")) runTransfer(arguments, progress, report);
+    if (wants(arguments, "specular")) runSpecular(arguments, progress, report);
     report.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     if (!arguments.quiet && isatty(2) != 0) fmt::print(stderr, "\r\033[K");
     fmt::print("{}", barTable(report.bars));
@@ -222,7 +236,7 @@ int run(const Arguments& arguments) {
     if (!arguments.quiet)
         fmt::print(stderr, "bench: {} bakes in {:.0f} s: {}\n",
                    report.measurements.size() + report.environments.size() + report.bumps.size() +
-                       report.shadows.size() + report.transfers.size(),
+                       report.shadows.size() + report.transfers.size() + report.speculars.size(),
                    report.seconds, (fs::path(arguments.out) / "index.html").string());
     return 0;
 }
@@ -235,13 +249,16 @@ int main(int argc, char** argv) {
     arguments.shared = nacre::bench::defaultShared();
     CLI::App app(
         "Measures error and cost of every factorization, of prefiltered environments, of reliefs, of "
-        "shadows and of transfer; writes "
+        "shadows, of transfer and of specular views; writes "
         "report.json and index.html.");
     app.add_option("--out", arguments.out, "folder to write")->capture_default_str();
     app.add_option("--shared", arguments.shared, "folder with data/brdf and tools, for measured materials")
         ->capture_default_str();
-    app.add_option("--techniques", arguments.techniques, "only these: factored, environment, bump, shadow, transfer")
-        ->check(CLI::IsMember({"factored", "environment", "bump", "shadow", "transfer"}));
+    app.add_option("--techniques", arguments.techniques,
+                   "only these: factored, environment, bump, shadow, transfer, specular")
+        ->check(CLI::IsMember({"factored", "environment", "bump", "shadow", "transfer", "specular"}));
+    app.add_option("--scenes", arguments.scenes, "folder with demos/scenes' files, for specular views")
+        ->capture_default_str();
     app.add_option("--source-sizes", arguments.sourceSizes, "of the environments' curves: edges of the source cube")
         ->check(CLI::IsMember({32, 64, 128, 256, 512, 1024, 2048}));
     app.add_option("--materials", arguments.materials, "only these (names as --list prints them)");

@@ -64,13 +64,14 @@ json reportJson(const Report& report) {
                 {"frame", GpuLab::frameText()},  {"quick", report.quick},     {"seconds", report.seconds},
                 {"notes", report.notes},         {"bars", json::array()},     {"measurements", json::array()},
                 {"environments", json::array()}, {"bumps", json::array()},    {"shadows", json::array()},
-                {"transfers", json::array()}};
+                {"transfers", json::array()},    {"speculars", json::array()}};
     for (const Bar& bar : report.bars) out["bars"].push_back(barJson(bar));
     for (const Measurement& m : report.measurements) out["measurements"].push_back(measurementJson(m));
     for (const EnvironmentMeasurement& m : report.environments) out["environments"].push_back(environmentJson(m));
     for (const BumpMeasurement& m : report.bumps) out["bumps"].push_back(bumpJson(m));
     for (const ShadowMeasurement& m : report.shadows) out["shadows"].push_back(shadowJson(m));
     for (const TransferMeasurement& m : report.transfers) out["transfers"].push_back(transferJson(m));
+    for (const SpecularMeasurement& m : report.speculars) out["speculars"].push_back(specularJson(m));
     return out;
 }
 

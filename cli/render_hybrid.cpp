@@ -81,6 +81,7 @@ json compareStages(const SceneDescription& scene, const HybridPictures& p, std::
     SceneTraceOptions options{.width = p.shot.width, .height = p.shot.height, .supersample = p.rays};
     options.time = p.shot.time;
     options.specularDepth = p.switches.specular.depth;
+    options.lightDepth = 0;                                     // as it is drawn
     options.lightPoints = std::max(4, 64 / (p.rays * p.rays));  // a pixel has 64, and 256 paths
     options.interreflectionPaths = std::max(16, 256 / (p.rays * p.rays));
     options.progress = progress;

@@ -111,12 +111,9 @@ void runTransferFile(const Context& context, const Settings& s) {
     renderTransfer(context, p);
 }
 
-/// Without --light-paths: those that lead past a thick pane, where nothing forbids them.
 SceneSwitches switchesFor(const Settings& s, const SceneDescription& scene) {
     SceneSwitches out = s.switches;
-    const bool volumes =
-        std::any_of(scene.nodes.begin(), scene.nodes.end(), [](const SceneNode& node) { return node.volume >= 0; });
-    out.specular.lightDepth = s.lightPaths.value_or(volumes ? 0 : 2);
+    out.specular.lightDepth = s.lightPaths.value_or(usualLightDepth(scene));
     return out;
 }
 
@@ -138,6 +135,15 @@ void runHybrid(const Context& context, const Settings& s, SceneDescription scene
     renderHybrid(context, std::move(scene), p);
 }
 
+/// What draws faces that views can't.
+void checkPlanar(const SceneDescription& scene) {
+    try {
+        checkPlanarFaces(scene);
+    } catch (const Error& error) {
+        throw Error(fmt::format("{}; --specular traced draws curved meshes", error.what()));
+    }
+}
+
 void runRender(const Context& context, const Settings& s) {
     if (s.output.empty() && !s.passes) throw UsageError("--output: expected a name, found none");
     if (isTransferFile(s.scene)) return runTransferFile(context, s);
@@ -154,10 +160,12 @@ void runRender(const Context& context, const Settings& s) {
     if (s.passes) {
         if (isHybrid(s.hybrid))
             throw UsageError("--passes: expected none of --indirect, --specular traced and sampled shadows beside it");
+        checkPlanar(scene);
         endProgress();
         return putData(passList(scene, s.shot, atQuality(switchesFor(s, scene), s.quality), s.asJson));
     }
     if (isHybrid(s.hybrid)) return runHybrid(context, s, std::move(scene));
+    checkPlanar(scene);
     const SceneSwitches switches = switchesFor(s, scene);
     const nacre::Context gl(GlApi::Core33);
     ProgramLoader loader;

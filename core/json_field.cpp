@@ -221,10 +221,10 @@ Vec3 JsonField::direction() const {
     return v / length;
 }
 
-Rgb JsonField::color() const {
-    if (value_->is_number()) return Rgb(number(0));
+Rgb JsonField::color(double most) const {
+    if (value_->is_number()) return Rgb(number(0, most));
     const std::vector<JsonField> v = items(3, 3);
-    return {v[0].number(0), v[1].number(0), v[2].number(0)};
+    return {v[0].number(0, most), v[1].number(0, most), v[2].number(0, most)};
 }
 
 Vec4 JsonField::quaternion() const {

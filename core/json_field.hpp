@@ -50,11 +50,11 @@ public:
     double positive() const;                                                     ///< finite, > 0
     int integer(int low, int high) const;
     bool flag() const;
-    std::string text() const;  ///< not empty
-    Vec3 vector() const;       ///< [x, y, z]
-    Vec3 direction() const;    ///< the same, made unit; not zero
-    Rgb color() const;         ///< [r, g, b] or one number for all, ≥ 0
-    Vec4 quaternion() const;   ///< [x, y, z, w], of length 1 within 1e-3, made unit
+    std::string text() const;                                                ///< not empty
+    Vec3 vector() const;                                                     ///< [x, y, z]
+    Vec3 direction() const;                                                  ///< the same, made unit; not zero
+    Rgb color(double most = std::numeric_limits<double>::infinity()) const;  ///< [r, g, b] or one number for all, ≥ 0
+    Vec4 quaternion() const;  ///< [x, y, z, w], of length 1 within 1e-3, made unit
     /// A name of `names`. \param what  "asset"  \return its index
     int nameIn(const JsonNames& names, const char* what) const;
     /// One of these words. \return which

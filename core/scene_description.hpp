@@ -73,6 +73,10 @@ struct SceneSpecular {
     double surface = 0;  ///< share of the material's own light, in [0, 1]; the rest is specular
     /// Over the mesh's uv: rgb times the own light, alpha times `surface`. Four channels, row 0 at v = 0. None: all 1.
     std::shared_ptr<const Image> texture{};
+    /// Over the mesh's uv: rgb times `transmission`, of a mirror times `reflection`, so stained glass; alpha isn't
+    /// used. Four channels, the same size as the texture. None: all 1. Its uv, and the texture's, are one affine map of
+    /// the plane.
+    std::shared_ptr<const Image> filter{};
     /// What is seen in the face fades to this radiance, wholly at this distance from its plane; 0: no fog.
     Rgb fog{0};
     double fogDistance = 0;

@@ -41,6 +41,9 @@ const std::vector<NamedExhibit>& transferExhibits();
 const std::vector<NamedExhibit>& multipassExhibits();
 const std::vector<NamedExhibit>& hybridExhibits();
 
+/// multipass_tables.cpp
+Exhibit multipassTables(const Task& task);
+
 /// shadow_exhibits.cpp
 Exhibit shadowStudyExhibit(const Task& task);
 

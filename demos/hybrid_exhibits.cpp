@@ -34,6 +34,7 @@ public:
     SceneComponents truth(int lightPoints, int paths, const Progress& progress) const {
         SceneTraceOptions options{.width = size_, .height = size_, .supersample = kSupersample};
         options.lightPoints = lightPoints;
+        options.lightDepth = 0;  // as it is drawn
         options.interreflectionPaths = paths;
         options.progress = progress;
         return traceComponents(scene_, scene_.camera, truths_, options);

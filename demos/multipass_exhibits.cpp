@@ -25,7 +25,7 @@ Image everywhere(int width, int height) {
     return out;
 }
 
-/// A scene's renderer and its truths, drawn as panels.
+/// A scene's renderer and its truths, drawn as panels: without light that faces send on (light_path_exhibits.cpp).
 class ScenePanels {
 public:
     ScenePanels(const Task& task, SceneDescription scene, int width, int height)
@@ -38,6 +38,7 @@ public:
         SceneTraceOptions options{.width = width_, .height = height_, .supersample = kSupersample};
         options.lightPoints = lightPoints;
         options.interreflectionPaths = 24;
+        options.lightDepth = 0;
         const SceneDescription& scene = renderer_.scene();
         return traceScene(scene, scene.camera, openTruths(scene), {parts}, options).front();
     }
@@ -48,6 +49,7 @@ public:
                       [this, on, before](const RenderTarget& target) {
                           if (before) before(renderer_);
                           renderer_.switches = on;
+                          renderer_.switches.specular.lightDepth = 0;
                           renderer_.render(target);
                       },
                       {truth, everywhere(width_, height_)});
@@ -55,6 +57,7 @@ public:
     ShadowVolumeCounts counts(const SceneSwitches& on) {
         const RenderTarget target({.width = 16, .height = 16});
         renderer_.switches = on;
+        renderer_.switches.specular.lightDepth = 0;
         renderer_.render(target);
         return renderer_.shadowVolumes();
     }

@@ -18,6 +18,7 @@ Image traced(const Task& task, const SceneDescription& scene, int width, int hei
     SceneTraceOptions options{.width = width, .height = height, .supersample = kSupersample};
     options.specularDepth = depth;
     options.spreadRays = 64;
+    options.lightDepth = 0;  // views alone: light_path_exhibits.cpp has the rest
     return traceScene(scene, scene.camera, openTruths(scene), {{}}, options).front();
 }
 
@@ -36,6 +37,7 @@ public:
     void panel(const std::string& label, const SpecularOptions& options, const Image& truth) {
         const auto draw = [this, options](const RenderTarget& target) {
             renderer_.switches.specular = options;
+            renderer_.switches.specular.lightDepth = 0;
             renderer_.render(target);
         };
         builder.panel(label, draw, {truth, wholePicture(truth)});

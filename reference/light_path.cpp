@@ -110,13 +110,21 @@ Rgb LightPaths::share(const Bounce& bounce, const Vec3& point, const Vec3& along
     const std::optional<Vec2> uv = uvAt(face.mesh, Vec3(face.plane), point);
     if (!uv) return Rgb(0);
     const double alpha = s.texture ? sampleBilinear(*s.texture, float(uv->x), float(uv->y)).a : 1;
-    const Rgb factor = (1 - s.surface * alpha) * (bounce.refracts ? s.transmission : s.reflection);
+    Rgb factor = (1 - s.surface * alpha) * (bounce.refracts ? s.transmission : s.reflection);
+    if (s.filter && (bounce.refracts || !s.ior)) factor *= Rgb(sampleBilinear(*s.filter, float(uv->x), float(uv->y)));
     if (!s.ior) return factor;
     const double cosine = std::abs(glm::dot(along, Vec3(face.plane)));
     const double cos2 = 1 - (1 - cosine * cosine) / sqr(bounce.eta);  // beyond
     double reflects = cos2 > 0 ? 0 : 1;
     if (cos2 > 0 && s.partial && bounce.eta != 1) reflects = fresnelReflectance(cosine, std::sqrt(cos2), bounce.eta);
     return (bounce.refracts ? 1 - reflects : reflects) * factor;
+}
+
+/// What fog behind the face leaves of light that goes on to a point: as the eye sees it, of the distance to the plane.
+double LightPaths::clear(const Bounce& bounce, const Vec3& next) const {
+    const Face& face = faces_[bounce.face];
+    if (face.specular.fogDistance == 0) return 1;
+    return 1 - std::min(1.0, std::abs(height(face.plane, next)) / face.specular.fogDistance);
 }
 
 /// \param way  the light, points of the faces, the point
@@ -177,6 +185,7 @@ void LightPaths::followPoint(const Chain& chain, const Light& light, const Vec3&
         if (all == Rgb(0)) return;
     }
     way.push_back(point);
+    for (std::size_t j = 0; j < count; ++j) all *= clear(chain.bounces[j], way[j + 2]);
     if (light.cone) all *= coneShare(*light.cone, glm::normalize(light.position - way[1]));
     if (all == Rgb(0) || (blocked && isBlocked(way))) return;
     arrives({glm::normalize(way[count] - point), all});
@@ -206,7 +215,7 @@ void LightPaths::followDirection(const Chain& chain, const Light& light, const V
         const double t = height(plane, at) / glm::dot(Vec3(plane), along[j + 1]);
         if (!(t > 0)) return;
         const Vec3 before = at - t * along[j + 1];
-        all *= share(chain.bounces[j], before, along[j]);
+        all *= share(chain.bounces[j], before, along[j]) * clear(chain.bounces[j], at);
         if (all == Rgb(0) || (blocked && rays_->shadowed(at, -along[j + 1], t))) return;
         at = before;
     }

@@ -15,10 +15,10 @@ struct LightArrival {
     Rgb irradiance{0};  ///< on a facing surface
 };
 
-/// Chains of at most `depth` faces. A face takes part when its node casts shadows and nothing scatters there (frosted,
-/// glossy, rough); what isn't blocked by a face isn't sent on by it. Directions and points of light are exact: mirrored
-/// or, by Fermat's principle, refracted; flux is conserved, with Fresnel's shares, tints, textures' alpha and the own
-/// light's share taken off. Left out: fog behind the face.
+/// Chains of at most `depth` faces. A face takes part when its node casts shadows and nothing scatters there
+/// (scattered_light.hpp); what isn't blocked by a face isn't sent on by it. Directions and points of light are exact:
+/// mirrored or, by Fermat's principle, refracted; flux is conserved, with Fresnel's shares, tints, filters, and fog,
+/// the own light's share and textures' alpha taken off.
 class LightPaths {
 public:
     /// All outlive this. \param nodes  nodeTransforms' result
@@ -57,6 +57,7 @@ private:
     void followDirection(const Chain& chain, const Light& light, const Vec3& point, bool blocked,
                          const std::function<void(const LightArrival&)>& arrives) const;
     Rgb share(const Bounce& bounce, const Vec3& point, const Vec3& along) const;
+    double clear(const Bounce& bounce, const Vec3& next) const;
     bool isBlocked(const std::vector<Vec3>& way) const;
 
     const SceneRays* rays_;

@@ -12,104 +12,13 @@
 #include "core/sampling.hpp"
 #include "reference/camera_rays.hpp"
 #include "reference/light_path.hpp"
+#include "reference/scattered_light.hpp"
 #include "reference/specular_path.hpp"
+#include "reference/traced_relief.hpp"
+#include "reference/traced_samples.hpp"
 
 namespace nacre {
 namespace {
-
-/// Numbers of one ray and purpose (SplitMix64).
-class Random {
-public:
-    Random(std::uint64_t seed, std::uint64_t ray, std::uint64_t purpose)
-        : state_(mixed(mixed(seed + 0x9e3779b97f4a7c15u * (ray + 1)) + purpose)) {}
-    double operator()() {
-        state_ += 0x9e3779b97f4a7c15u;
-        return static_cast<double>(mixed(state_) >> 11) * 0x1p-53;
-    }
-    Vec2 pair() {
-        const double u = (*this)();
-        return {u, (*this)()};
-    }
-
-private:
-    static std::uint64_t mixed(std::uint64_t z) {
-        z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
-        z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
-        return z ^ (z >> 31);
-    }
-    std::uint64_t state_;
-};
-
-/// Point i of a plane sequence that fills a pixel evenly: Roberts' R2, shifted by the pixel's own numbers. Errors of a
-/// pixel's mean fall nearly as fast as its points grow, where independent ones would take their square.
-class PixelSequence {
-public:
-    PixelSequence(std::uint64_t seed, std::uint64_t pixel, std::uint64_t purpose, std::uint64_t first)
-        : shift_(Random(seed, pixel, purpose).pair()), next_(first) {}
-    Vec2 operator()() {
-        const double i = static_cast<double>(next_++);
-        const Vec2 p(shift_.x + 0.7548776662466927 * i, shift_.y + 0.5698402909980532 * i);
-        return p - glm::floor(p);
-    }
-
-private:
-    Vec2 shift_;
-    std::uint64_t next_;
-};
-
-/// d of a frame whose z is n.
-Vec3 turnedTo(const Vec3& n, const Vec3& d) {
-    const Vec3 helper = std::abs(n.x) < 0.5 ? Vec3(1, 0, 0) : Vec3(0, 1, 0);
-    const Vec3 t = glm::normalize(glm::cross(helper, n)), b = glm::cross(n, t);
-    return d.x * t + d.y * b + d.z * n;
-}
-
-/// Normal of the patch at a point [texels]; +z where there is none.
-Vec3 patchNormal(const HeightMap& map, const Vec2& p) {
-    const Vec2 corner(std::floor(p.x - 0.5), std::floor(p.y - 0.5)), t = p - 0.5 - corner;
-    const int i = static_cast<int>(corner.x), j = static_cast<int>(corner.y);
-    const double h00 = map.at(i, j), h10 = map.at(i + 1, j), h01 = map.at(i, j + 1), h11 = map.at(i + 1, j + 1);
-    const double dx = (1 - t.y) * (h10 - h00) + t.y * (h11 - h01), dy = (1 - t.x) * (h01 - h00) + t.x * (h11 - h10);
-    return std::isfinite(dx) && std::isfinite(dy) ? glm::normalize(Vec3(-dx, -dy, 1)) : Vec3(0, 0, 1);
-}
-
-/// Light of irradiance 1 on the plane that faces it, reflected 1 … bounces times before the point.
-Rgb bounced(const ReliefTruth& relief, const SceneRelief& options, const Vec2& at, const Vec3& normal,
-            const Vec3& light, int paths, PixelSequence starts, Random random) {
-    const double height = heightAt(relief.map, at);
-    if (std::isnan(height)) return Rgb(0);
-    Rgb sum(0);
-    for (int i = 0; i < paths; ++i) {
-        Vec3 p(at, height), n = normal;
-        Rgb carried = options.albedo;
-        for (int k = 0; k < options.bounces; ++k) {
-            const auto hit = firstHit(relief.rays, p, turnedTo(n, cosineHemisphere(k == 0 ? starts() : random.pair())));
-            if (!hit) break;
-            const double cosine = glm::dot(hit->normal, light);
-            if (cosine > 0 && isLit(relief.rays, Vec2(hit->point), light))
-                sum += carried * options.albedo * (cosine / kPi);
-            carried *= options.albedo;
-            p = hit->point, n = hit->normal;
-        }
-    }
-    return sum / static_cast<double>(paths);
-}
-
-/// A direction of the lobe about r and its weight; the density is the lobe but for that.
-std::pair<Vec3, double> lobeSample(const Lobe& lobe, const Vec3& r, const Vec2& u) {
-    const double phi = 2 * kPi * u.y;
-    const auto about = [&](double cosine) {
-        const double sine = std::sqrt(std::max(0.0, 1 - cosine * cosine));
-        return turnedTo(r, {sine * std::cos(phi), sine * std::sin(phi), cosine});
-    };
-    if (isMirror(lobe)) return {r, 1};
-    if (lobe.kind == LobeKind::Diffuse) return {about(std::sqrt(u.x)), 1};
-    if (lobe.kind == LobeKind::Phong) return {about(std::pow(1 - u.x, 1 / (lobe.exponent + 1))), 1};
-    const bool beckmann = lobe.kind == LobeKind::Beckmann || lobe.kind == LobeKind::BeckmannRefraction;
-    const double a2 = sqr(lobe.alpha), tan2 = beckmann ? -a2 * std::log1p(-u.x) : a2 * u.x / (1 - u.x);
-    const double cosine = (1 - tan2) / (1 + tan2);  // of twice the half vector's angle
-    return {about(cosine), std::max(0.0, cosine)};
-}
 
 class Tracer {
 public:
@@ -124,6 +33,7 @@ public:
           areas_(areasInWorld(scene, nodes_)),
           surfaces_(scene, nodes_),
           paths_(scene, nodes_, surfaces_, options.lightDepth),
+          scattered_(scene, nodes_, surfaces_),
           rays_(options.points.empty() ? CameraRays(camera, options.width, options.height, options.supersample)
                                        : CameraRays(camera, options.width, options.height, options.points)),
           turn_(Mat3(glm::rotate(glm::dmat4(1), -scene.sky.rotationY, Vec3(0, 1, 0)))) {
@@ -280,6 +190,10 @@ private:
             std::vector<LightArrival>& found = p.arrivals[i].emplace();
             paths_.follow(light, p.s.position, scene_.nodes[p.node].receivesShadow,
                           [&](const LightArrival& arrival) { found.push_back(arrival); });
+            if (options_.lightDepth > 0 && !scattered_.empty())
+                scattered_.follow(light, p.s.position, scene_.nodes[p.node].receivesShadow, options_.facePoints,
+                                  sequence(p, 32 + i, options_.facePoints),
+                                  [&](const LightArrival& arrival) { found.push_back(arrival); });
         }
         const Vec3 wo = toLocal(frame, p.s.toEye);
         Rgb sum(0);
@@ -296,7 +210,7 @@ private:
     Rgb interreflected(const Point& from, const SurfacePoint& frame, const SceneParts& parts) const {
         const int bounces = parts.bounces > 0 ? parts.bounces : options_.interreflectionBounces;
         PixelSequence first = sequence(from, 3, options_.interreflectionPaths);
-        Random random(options_.seed, from.pixel * static_cast<unsigned>(rays_.samples()) + from.ray, 5);
+        PixelRandom random(options_.seed, from.pixel * static_cast<unsigned>(rays_.samples()) + from.ray, 5);
         Rgb sum(0);
         for (int i = 0; i < options_.interreflectionPaths; ++i) {
             Point at = from;
@@ -322,7 +236,7 @@ private:
             const std::uint64_t number = p.pixel * static_cast<unsigned>(rays_.samples()) + p.ray;
             p.indirect =
                 bounced(*p.truth->relief, *p.material->relief, p.at, p.reliefNormal, local, options_.indirectPaths,
-                        sequence(p, 0, options_.indirectPaths), Random(options_.seed, number, 3));
+                        sequence(p, 0, options_.indirectPaths), PixelRandom(options_.seed, number, 3));
         }
         return *p.indirect;
     }
@@ -424,6 +338,7 @@ private:
     std::vector<std::optional<LightArea>> areas_;
     SceneRays surfaces_;
     LightPaths paths_;
+    ScatteredLight scattered_;
     CameraRays rays_;
     Mat3 turn_;
     bool occlusion_ = false;
@@ -435,7 +350,7 @@ std::vector<Image> traceScene(const SceneDescription& scene, const Camera& camer
                               const std::vector<SceneParts>& parts, const SceneTraceOptions& options) {
     require(options.width >= 1 && options.height >= 1 && options.supersample >= 1 && options.skyRays >= 1 &&
                 options.indirectPaths >= 1 && options.occlusionRays >= 1 && options.lightPoints >= 1 &&
-                options.interreflectionPaths >= 1 && options.interreflectionBounces >= 1 &&
+                options.interreflectionPaths >= 1 && options.interreflectionBounces >= 1 && options.facePoints >= 1 &&
                 options.specularDepth >= 0 && options.lightDepth >= 0 && options.spreadRays >= 1,
             "traceScene: sizes and numbers of rays must be >= 1, depths >= 0");
     require(truths.materials.size() == scene.materials.size(), "traceScene: expected a truth for each material");

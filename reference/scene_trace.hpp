@@ -31,8 +31,9 @@ struct SceneTraceOptions {
     std::vector<Vec2> points{};     ///< of a pixel's rays, from its upper left corner to (1, 1); none: the grid
     double time = 0;                ///< [s]
     int specularDepth = 4;          ///< specular surfaces along a path; the last shows its own light alone
-    int lightDepth = 0;             ///< the same along a path from a light; 0: they block and send nothing on
+    int lightDepth = 2;             ///< the same along a path from a light; 0: they block and send nothing on
     int spreadRays = 16;            ///< of a ray that meets a frosted or glossy one
+    int facePoints = 16;            ///< of a ray, on each frosted, glossy or rough face that scatters a light on
     int skyRays = 4;                ///< of a ray, into a relief's sky: what of the diffuse and ambient light is blocked
     int indirectPaths = 4;          ///< of a ray
     int occlusionRays = 8;          ///< of a ray, into each of the surrounding's lobes; with SceneParts::occlusion
@@ -57,9 +58,8 @@ struct SceneTraceOptions {
 ///   surrounding  integrals of the unbaked environment over the lobe that the baked level states, exact Fresnel; minus,
 ///                of the diffuse part, what the relief blocks
 ///   specular     mirrors and panes send rays on, exactly (specular_path.hpp); what is above is of where they end
-///   light paths  lamps with a SceneShadow by way of mirrors and panes (light_path.hpp), with SceneParts::shadows; not
-///   in
-///                the bounced light of reliefs
+///   light paths  lamps with a SceneShadow by way of mirrors and panes (light_path.hpp; of those that scatter,
+///                scattered_light.hpp), with SceneParts::shadows; not in the bounced light of reliefs
 /// The three lines before the last are of random rays (Monte Carlo; the estimate is unbiased but for averages over 3°
 /// of what is blocked). In neither picture: light that bounces between meshes, or in reliefs from other lights and the
 /// surrounding; reliefs as seen in mirrored and refracted directions; parallax. \throws std::invalid_argument: sizes or

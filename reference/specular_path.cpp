@@ -40,6 +40,10 @@ public:
             texel = Rgb(at);
             here.surface *= at.a;
         }
+        if (here.filter) {
+            const Rgb color(sampleBilinear(*here.filter, float(hit->s.uv.x), float(hit->s.uv.y)));
+            (here.ior ? here.transmission : here.reflection) *= color;
+        }
         if (here.surface > 0) end_({hit, along, share * here.surface, texel, true});
         if (left == 0) return;
         const Vec3 normal = normalOf(*hit, along);

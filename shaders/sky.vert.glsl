@@ -3,6 +3,9 @@
 #include "nacre/bind/view.glsl"
 
 out vec3 v_direction;
+#ifdef NACRE_VIEW
+out vec4 v_far;
+#endif
 
 void main() {
     vec2 corner = vec2(gl_VertexID == 1 ? 3.0 : -1.0, gl_VertexID == 2 ? 3.0 : -1.0);
@@ -11,6 +14,7 @@ void main() {
     v_direction = far.xyz * nacre_eye.w - nacre_eye.xyz * far.w;
     gl_Position = vec4(corner, 1.0, 1.0);
 #ifdef NACRE_VIEW
+    v_far = far;
     gl_ClipDistance[0] = 1.0;
 #endif
 }

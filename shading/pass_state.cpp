@@ -56,6 +56,21 @@ void setView(const Program& program, const SpecularView& view, const ViewLight& 
     program.set("nacre_view_factor", glm::vec3(light.factor));
     program.set("nacre_view_share", static_cast<float>(share));
     program.set("nacre_view_fog", glm::vec4(Vec4(light.fog, light.fogDistance > 0 ? 1 / light.fogDistance : 0)));
+    if (light.filters.empty()) return;
+    std::vector<glm::mat4> places;
+    std::vector<glm::vec4> rects;
+    for (const PlacedImage& filter : light.filters) {
+        places.emplace_back(filter.place);
+        rects.push_back(filter.rect);
+    }
+    program.set("nacre_view_place", places);
+    program.set("nacre_view_rect", rects);
+    program.set("nacre_face_images", kFaceImagesUnit);
+}
+
+ShaderDefines viewDefines(const ViewLight& light) {
+    if (light.filters.empty()) return {};
+    return {{"NACRE_VIEW_FILTERS", std::to_string(light.filters.size())}};
 }
 
 static glm::vec4 coneUniform(const std::optional<SpotCone>& cone) {

@@ -29,6 +29,11 @@ void setLights(const Program& program, const LitView& view);
 
 /// Texture units after a BRDF's, three maps and a table of a surrounding, and a relief's.
 inline constexpr int kShadowUnit = 13;
+/// After at most eight lights' maps: a scene's faceImages (shading/multipass/face_image.hpp).
+inline constexpr int kFaceImagesUnit = kShadowUnit + 8;
+
+/// What programs that draw a virtual viewpoint's surfaces are loaded with, NACRE_VIEW apart.
+ShaderDefines viewDefines(const ViewLight& light);
 
 /// Uniforms of nacre/bind/light_levels.glsl: an array texture, at kShadowUnit, as there are no maps beside it. Leaves
 /// `program` in use.

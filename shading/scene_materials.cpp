@@ -82,21 +82,45 @@ std::shared_ptr<const Image> textureOf(const std::filesystem::path& path) {
     return std::make_shared<const Image>(std::move(out));
 }
 
+/// A picture in words: a colour for each letter, and rows of letters, the first at v = 0.
+std::shared_ptr<const Image> lettered(const JsonField& field) {
+    field.requireKeys({"colors", "rows"});
+    const JsonField colors = field.at("colors");
+    const auto rows = field.at("rows").items(1, 1024);
+    const std::size_t width = rows[0].text().size();
+    Image out(static_cast<int>(width), static_cast<int>(rows.size()), 4);
+    for (std::size_t y = 0; y < rows.size(); ++y) {
+        const std::string row = rows[y].text();
+        if (row.size() != width) rows[y].fail(fmt::format("expected {} letters, found {}", width, row.size()));
+        for (std::size_t x = 0; x < width; ++x) {
+            out.setRgb(static_cast<int>(x), static_cast<int>(y), colors.at(std::string(1, row[x])).color());
+            out.at(static_cast<int>(x), static_cast<int>(y), 3) = 1;
+        }
+    }
+    return std::make_shared<const Image>(std::move(out));
+}
+
+std::shared_ptr<const Image> filterOf(const JsonField& field, const std::filesystem::path& folder) {
+    if (field.value().is_object()) return lettered(field);
+    return named(field, [&] { return textureOf(scenePath(folder, field.text())); });
+}
+
 SceneSpecular specular(const JsonField& field, const std::filesystem::path& folder) {
-    field.requireKeys({"ior", "reflection", "transmission", "partial", "surface", "texture", "fog", "fogDistance",
-                       "spread", "roughness"});
+    field.requireKeys({"ior", "reflection", "transmission", "partial", "surface", "texture", "filter", "fog",
+                       "fogDistance", "spread", "roughness"});
     SceneSpecular out;
     ifThere(field, "ior", [&](const JsonField& f) { out.ior = f.number(1e-3, 1e3); });
-    ifThere(field, "reflection", [&](const JsonField& f) { out.reflection = f.color(); });
+    ifThere(field, "reflection", [&](const JsonField& f) { out.reflection = f.color(1); });
     for (const char* key : {"transmission", "partial"})
         if (const auto f = field.find(key); f && !out.ior) f->fail("expected \"ior\" beside it, found none");
-    ifThere(field, "transmission", [&](const JsonField& f) { out.transmission = f.color(); });
+    ifThere(field, "transmission", [&](const JsonField& f) { out.transmission = f.color(1); });
     ifThere(field, "partial", [&](const JsonField& f) { out.partial = f.flag(); });
     ifThere(field, "surface", [&](const JsonField& f) { out.surface = f.number(0, 1); });
     ifThere(field, "texture", [&](const JsonField& f) {
         if (out.surface == 0) f.fail("expected \"surface\" beside it, found none");
         out.texture = named(f, [&] { return textureOf(scenePath(folder, f.text())); });
     });
+    ifThere(field, "filter", [&](const JsonField& f) { out.filter = filterOf(f, folder); });
     ifThere(field, "fogDistance", [&](const JsonField& f) { out.fogDistance = f.positive(); });
     ifThere(field, "fog", [&](const JsonField& f) {
         if (out.fogDistance == 0) f.fail("expected \"fogDistance\" beside it, found none");

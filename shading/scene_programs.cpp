@@ -256,6 +256,12 @@ std::string directModelOf(const SceneDescription& scene, const SceneMaterial& m,
     return {};
 }
 
+int usualLightDepth(const SceneDescription& scene) {
+    const bool volumes =
+        std::any_of(scene.nodes.begin(), scene.nodes.end(), [](const SceneNode& node) { return node.volume >= 0; });
+    return volumes ? 0 : SpecularOptions().lightDepth;
+}
+
 bool takesLamps(const SceneDescription& scene, const SceneMaterial& material, const SceneSwitches& switches) {
     return switches.lamps && !scene.lights.empty() && (material.brdf >= 0 || !material.model.empty());
 }

@@ -80,6 +80,9 @@ struct SceneProgram {
 /// Whether lights matter: they are on, there are some, and the material has a BRDF.
 bool takesLamps(const SceneDescription& scene, const SceneMaterial& material, const SceneSwitches& switches);
 
+/// SpecularOptions::lightDepth unless another is asked for; 0 in scenes with volumes, where no light is sent on.
+int usualLightDepth(const SceneDescription& scene);
+
 /// Whether shadow maps are drawn and looked up.
 bool mapsShadows(const SceneSwitches& switches);
 

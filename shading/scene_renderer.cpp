@@ -63,6 +63,7 @@ struct SceneRenderer::State {
     std::vector<DrawnMesh> meshes;
     std::map<std::shared_ptr<const Volume>, GpuVolume> volumes;
     std::map<std::shared_ptr<const Image>, Texture> faceTextures;
+    std::optional<Texture> faceImages;                 ///< of all specular materials; addressed by texelFetch
     std::vector<std::optional<GpuDirectBrdf>> models;  ///< one a material: what Direct evaluates
     std::map<std::size_t, NodeLight> nodeLights;       ///< of nodes whose relief has indirect light
     SceneShadowMaps shadowMaps;
@@ -89,6 +90,8 @@ struct SceneRenderer::State {
         for (const SceneMaterial& m : scene.materials)
             if (m.specular && m.specular->texture)
                 faceTextures.try_emplace(m.specular->texture, *m.specular->texture, Filter::Linear);
+        faceImages.reset();
+        if (const Image images = nacre::faceImages(scene); !images.empty()) faceImages.emplace(images);
     }
 
     const GpuAsset& asset(int index) const { return assets[static_cast<std::size_t>(index)]; }
@@ -223,7 +226,7 @@ struct SceneRenderer::State {
         out.shadowDefines = shadowDefines(out.shadows, lights);
         if (on.shadows && on.shadowMethod == ShadowMethod::Levels && on.lightLevels != 0)
             out.shadowDefines.emplace_back("NACRE_LIGHT_LEVELS", "1");
-        out.viewDefines = viewDefines(scene);
+        out.viewDefines = nacre::viewDefines(scene);
         return out;
     }
 
@@ -249,6 +252,10 @@ struct SceneRenderer::State {
         std::stable_sort(draws.begin(), draws.end(),
                          [](const Draw& a, const Draw& b) { return a.nearest < b.nearest; });
         return draws;
+    }
+
+    static ShaderDefines viewDefinesOf(const Frame& frame, const ScheduledView& view) {
+        return joined(frame.viewDefines, viewDefines(view.light));
     }
 
     /// What of all light a node gives is its own: of specular faces not all.
@@ -278,8 +285,8 @@ struct SceneRenderer::State {
                 frame.on.ambient && radiance != nodeRadiance.end() && wanted.fragment == "scene.frag.glsl";
             if (brings) wanted.defines.emplace_back("NACRE_VERTEX_RADIANCE", "1");
             if (frame.image) wanted.defines = joined(std::move(wanted.defines), lightPathDefines(*frame.image));
-            const Program& next =
-                loader.load(wanted.vertex, wanted.fragment, joined(std::move(wanted.defines), frame.viewDefines));
+            const Program& next = loader.load(wanted.vertex, wanted.fragment,
+                                              joined(std::move(wanted.defines), viewDefinesOf(frame, view)));
             const bool own = nodeLights.count(draw.node) != 0;  // its texture is the node's, not the material's
             if (&next != program || material != scene.nodes[draw.node].material || own) {
                 lit.ambient = frame.on.ambient ? m.ambient : Rgb(0);
@@ -318,8 +325,8 @@ struct SceneRenderer::State {
             const bool shadowed = scene.nodes[i].receivesShadow && takesLamps(scene, m, on);
             SceneProgram wanted = volumeProgram(scene, scene.volumes[static_cast<std::size_t>(scene.nodes[i].volume)],
                                                 m, traits, on, shadowed ? defines : ShaderDefines());
-            const Program& program =
-                loader.load(wanted.vertex, wanted.fragment, joined(std::move(wanted.defines), frame.viewDefines));
+            const Program& program = loader.load(wanted.vertex, wanted.fragment,
+                                                 joined(std::move(wanted.defines), viewDefinesOf(frame, view)));
             LitView lit{frame.camera, frame.lights};
             lit.ambient = on.ambient ? m.ambient : Rgb(0);
             if (shadowed) lit.shadows = shadows;
@@ -331,9 +338,10 @@ struct SceneRenderer::State {
     void drawBackground(const Frame& frame, const ScheduledView& view) {
         if (scene.sky.asset >= 0)
             return drawSky(loader, view.view, {&asset(scene.sky.asset).environment.value(), scene.sky.lod, Rgb(1)},
-                           turnedByY(-scene.sky.rotationY), view.light, frame.viewDefines);
-        const Program& program = loader.load("sky.vert.glsl", "background.frag.glsl", frame.viewDefines);
+                           turnedByY(-scene.sky.rotationY), view.light, viewDefinesOf(frame, view));
+        const Program& program = loader.load("sky.vert.glsl", "background.frag.glsl", viewDefinesOf(frame, view));
         setView(program, view.view, view.light);
+        program.set("nacre_clip_to_world", glm::mat4(glm::inverse(view.view.toClip)));
         program.set("nacre_background", glm::vec3(scene.sky.color));
         program.use();
         drawFullscreen(VertexArray());
@@ -413,6 +421,10 @@ struct SceneRenderer::State {
         for (const SpecularFace& face : schedule.faces)
             faces.push_back({&*meshOf(face.node)->gpu, frame.nodes[face.node],
                              face.specular.texture ? &faceTextures.at(face.specular.texture) : nullptr});
+        if (faceImages) {
+            faceImages->bind(kFaceImagesUnit);
+            glActiveTexture(GL_TEXTURE0);
+        }
         target.clear(glm::vec4(glm::vec3(on.sky ? scene.sky.color : Rgb(0)), 1));
         runPasses(
             loader, schedule, target, faces,
@@ -505,6 +517,7 @@ static void requireVersion() {
 SceneRenderer::SceneRenderer(ProgramLoader& loader, SceneDescription scene) {
     requireVersion();
     state_ = std::make_unique<State>(loader, std::move(scene));
+    switches.specular.lightDepth = usualLightDepth(state_->scene);
 }
 SceneRenderer::~SceneRenderer() = default;
 SceneRenderer::SceneRenderer(SceneRenderer&&) noexcept = default;

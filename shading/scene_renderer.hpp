@@ -37,7 +37,7 @@ public:
     void render(const RenderTarget& target, const Camera& camera, double time = 0);
     void render(const RenderTarget& target, double time = 0) { render(target, scene().camera, time); }
 
-    SceneSwitches switches;  ///< of the next frame; change it freely
+    SceneSwitches switches;  ///< of the next frame; change it freely. At first with the scene's usualLightDepth
 
     /// Of the last frame that had volumes.
     ShadowVolumeCounts shadowVolumes() const;

@@ -43,6 +43,8 @@ ReferenceTracer sceneTracer(unsigned threads) {
         options.height = view.height;
         options.supersample = view.rays;
         options.time = view.time;
+        options.specularDepth = view.switches.specular.depth;
+        options.lightDepth = view.switches.specular.lightDepth;
         options.seed = static_cast<std::uint64_t>(pass) + 1;
         options.threads = threads;
         options.progress = progress;

@@ -25,6 +25,7 @@ ViewerSession::ViewerSession(SessionOptions options) : options_(std::move(option
     bounds_ = boundsOf(scene());
     camera = scene().camera;
     playing = scene().duration > 0;
+    switches.specular.lightDepth = usualLightDepth(scene());
     watchFiles();
 }
 
@@ -264,6 +265,7 @@ bool ViewerSession::open(const fs::path& file) {
         }
         options_.file = file;
         switches.specular.hidden.clear();  // of the last scene's faces
+        switches.specular.lightDepth = usualLightDepth(scene());
         time = 0;
         playing = scene().duration > 0;
         watchFiles();

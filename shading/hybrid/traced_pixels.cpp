@@ -21,8 +21,8 @@ void checkTraceable(const SceneDescription& scene) {
         if (m.surrounding) fail("no surrounding");
         if (!m.specular) continue;
         const SceneSpecular& s = *m.specular;
-        if (s.scatters() || s.fogDistance > 0 || s.texture || s.surface > 0)
-            fail("a clear specular surface, without spread, roughness, fog, texture and own light");
+        if (s.scatters() || s.fogDistance > 0 || s.texture || s.filter || s.surface > 0)
+            fail("a clear specular surface, without spread, roughness, fog, texture, filter and own light");
     }
 }
 

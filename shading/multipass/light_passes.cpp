@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <array>
 
+#include "shading/pass_state.hpp"
+
 namespace nacre {
 
 LightPasses::LightPasses(ProgramLoader& loader, SceneShadowVolumes& volumes, const SceneSwitches& on,
@@ -95,15 +97,32 @@ void LightPasses::addImage(const LitTarget& to, const VirtualLight& image, std::
 }
 
 bool needsLightPath(const VirtualLight& image) {
-    return !image.weighed.empty() || (!image.seen.directional && isRefracted(image));
+    return !image.weighed.empty() || (!image.seen.directional && (isRefracted(image) || image.shear >= 0));
 }
 
 ShaderDefines lightPathDefines(const VirtualLight& image) {
-    if (!needsLightPath(image)) return {};
-    return {{"NACRE_LIGHT_PATH", std::to_string(image.weighed.size())}};
+    ShaderDefines out;
+    if (needsLightPath(image)) out.emplace_back("NACRE_LIGHT_PATH", std::to_string(image.weighed.size()));
+    if (!image.images.empty()) out.emplace_back("NACRE_PATH_IMAGES", std::to_string(image.images.size()));
+    return out;
+}
+
+static void setPathImages(const Program& program, const VirtualLight& image) {
+    std::array<glm::mat4, kMostLightBounces> places{};
+    std::array<glm::vec4, kMostLightBounces> rects{}, uses{};
+    for (std::size_t i = 0; i < image.images.size(); ++i) {
+        places[i] = glm::mat4(image.images[i].place);
+        rects[i] = image.images[i].rect;
+        uses[i] = {image.images[i].filters ? 1 : 0, static_cast<float>(image.images[i].surface), 0, 0};
+    }
+    program.set("nacre_path_place", places);
+    program.set("nacre_path_rect", rects);
+    program.set("nacre_path_use", uses);
+    program.set("nacre_face_images", kFaceImagesUnit);
 }
 
 void setLightPath(const Program& program, const VirtualLight& image) {
+    if (!image.images.empty()) setPathImages(program, image);
     if (!needsLightPath(image)) return;
     std::array<glm::mat4, kMostLightBounces> turns{};
     std::array<glm::vec4, kMostLightBounces> faces{};

@@ -50,12 +50,13 @@ std::vector<ScheduledLight> scheduledLights(const SceneDescription& scene, const
     for (const ShadowedLamp& lamp : lamps) {
         if (countsShadows(on)) out.push_back({lamp.light, {}});
         for (std::size_t k = 0; k < lamp.points.size(); ++k)
-            for (VirtualLight& image :
-                 virtualLights(faces, sending, lamp.points[k], on.specular.lightDepth, on.specular.most)) {
+            for (VirtualLight& image : virtualLights(faces, sending, lamp.points[k], on.specular)) {
                 if (!on.specular.partial && isWeak(image, faces)) continue;
                 image.light = lamp.light;
                 image.point = k;
                 out.push_back({lamp.light, std::move(image)});
+                if (out.size() > on.specular.most)
+                    throw Error(fmt::format("light paths: expected at most {}, found more", on.specular.most));
             }
     }
     if (out.empty() && !countsShadows(on)) return out;
@@ -73,7 +74,7 @@ ShadowSource sourceOf(const VirtualLight& image, std::size_t stage, const std::v
     const LightStage& at = image.stages.at(stage);
     ShadowSource out{at.source, {static_cast<int>(image.light), static_cast<int>(image.point)}, at.toLast, at.within};
     for (std::size_t i = 0; i < stage; ++i)
-        out.name.insert(out.name.end(), {image.bounces[i].face, static_cast<int>(image.bounces[i].how)});
+        out.name.insert(out.name.end(), {image.bounces[i].face, static_cast<int>(image.bounces[i].how), image.shear});
     for (const int face : at.planeFaces) out.faces.push_back(faces[static_cast<std::size_t>(face)].node);
     return out;
 }

@@ -172,6 +172,7 @@ FaceSteps stepsTo(const PassSchedule& schedule, const ScheduledView& view) {
 void drawFace(ProgramLoader& loader, const ScheduledView& view, const FaceMesh& mesh, const SpecularFace* face,
               Bounce bounce, const FaceSteps& steps) {
     ShaderDefines defines{{"NACRE_VIEW", "1"}};
+    defines = joined(std::move(defines), viewDefines(view.light));
     if (!steps.planes.empty()) defines.emplace_back("NACRE_FACE_STEPS", std::to_string(steps.planes.size()));
     const bool textured = face && mesh.texture;
     if (textured) defines.emplace_back("NACRE_FACE_TEXTURE", "1");

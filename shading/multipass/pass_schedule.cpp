@@ -14,6 +14,9 @@ namespace {
 /// A window smaller than this, on a picture of edge 2, has no sample of a picture of 16384².
 constexpr double kLeastArea = 1e-10;
 
+/// Passes for each view that options allow: each adds all lights.
+constexpr std::size_t kPassesAView = 25;
+
 /// What may leave a face on the way back from the eye.
 struct Branch {
     Bounce bounce;
@@ -22,25 +25,6 @@ struct Branch {
     SpecularView view;      ///< without depths
     int shear = -1;
 };
-
-double random(std::uint64_t i) {  // SplitMix64
-    std::uint64_t z = (i + 1) * 0x9e3779b97f4a7c15u;
-    z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
-    z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
-    return static_cast<double>((z ^ (z >> 31)) >> 11) * 0x1p-53;
-}
-
-/// Sample i of two independent standard Gaussians (Box and Muller's).
-Vec2 gaussian(int i, ShearSampling sampling) {
-    const auto k = static_cast<std::uint64_t>(i);
-    Vec2 u(random(2 * k), random(2 * k + 1));
-    if (sampling == ShearSampling::LowDiscrepancy) {
-        u = 0.5 + Vec2(0.7548776662466927, 0.5698402909980532) * double(i + 1);
-        u -= glm::floor(u);
-    }
-    const double radius = std::sqrt(-2 * std::log1p(-u.x));
-    return radius * Vec2(std::cos(2 * kPi * u.y), std::sin(2 * kPi * u.y));
-}
 
 int stepOf(int face, Bounce bounce) { return 2 * face + (bounce == Bounce::Refracted ? 1 : 0); }
 
@@ -73,12 +57,34 @@ private:
         const int level = at(view).level;
         out_.deepest = std::max(out_.deepest, level);
         add(PassKind::Surfaces, view, -1, level, at(view).scissor);
+        if (out_.passes.size() + out_.lights.size() > kPassesAView * options_.most)
+            throw Error(
+                fmt::format("specular views: expected at most {} passes, found more at depth {} with {} lights "
+                            "in each view",
+                            kPassesAView * options_.most, options_.depth, out_.lights.size()));
         for (std::size_t i = 0; i < out_.lights.size(); ++i) {
+            if (!mayLight(view, out_.lights[i])) continue;
             add(PassKind::Light, view, -1, level, at(view).scissor);
             out_.passes.back().light = static_cast<int>(i);
         }
         if (level == options_.depth) return;
         for (std::size_t f = 0; f < out_.faces.size(); ++f) drawFace(view, static_cast<int>(f));
+    }
+
+    /// False where all that is seen behind the view's face is behind the plane from which an image's light goes on.
+    bool mayLight(int view, const ScheduledLight& light) {
+        const ScheduledView& seen = at(view);
+        if (!light.image || seen.parent < 0) return true;
+        const Plane& ahead = light.image->stages.back().within.front();
+        const Vec4 eye = seen.view.eye;
+        for (const Vec2& place : seen.window) {
+            const auto p = planePointAt(at(seen.parent).view, faceAt(seen.face).plane, place);
+            if (!p) return true;
+            const Vec3 along = glm::normalize(*p * eye.w - Vec3(eye));
+            const double rounding = 1e-9 * (1 + glm::length(*p));
+            if (glm::dot(ahead, Vec4(*p, 1)) > rounding || glm::dot(Vec3(ahead), along) > 1e-9) return true;
+        }
+        return false;
     }
 
     void drawFace(int view, int face) {
@@ -104,7 +110,7 @@ private:
             next.parent = view;
             next.face = face;
             next.bounce = branch.bounce;
-            next.light = {at(view).light.factor * branch.factor, specular.fog, specular.fogDistance};
+            next.light = {at(view).light.factor * branch.factor, specular.fog, specular.fogDistance, {}};
             next.weighted = at(view).weighted || at(view).light.fogDistance > 0 || branch.weighted ||
                             (specular.texture && specular.surface > 0);
             next.shear = branch.shear;
@@ -115,6 +121,7 @@ private:
             if (out_.views.size() == options_.most)
                 throw Error(fmt::format("specular views: expected at most {}, found more at depth {}", options_.most,
                                         options_.depth));
+            next.light.filters = filtersOf(next);
             const int index = static_cast<int>(out_.views.size());
             out_.views.push_back(std::move(next));
             add(PassKind::Clear, view, face, level + 1, scissor);
@@ -124,6 +131,22 @@ private:
             adds = true;
         }
         add(PassKind::Unmask, view, face, level + 1, scissor);
+    }
+
+    /// Each face's point is the one that the next view, or what is seen, is projected onto it.
+    std::vector<PlacedImage> filtersOf(const ScheduledView& seen) {
+        std::vector<PlacedImage> out;
+        glm::dmat4 onto(1);
+        for (const ScheduledView* v = &seen; v->parent >= 0; v = &at(v->parent)) {
+            const SpecularFace& face = faceAt(v->face);
+            onto = projectionFrom(v->view.eye, face.plane) * onto;
+            if (face.specular.filter && filtersLight(face.specular, v->bounce))
+                out.push_back(placedImage(face.image, onto));
+        }
+        if (out.size() > static_cast<std::size_t>(kMostFilters))
+            throw Error(fmt::format("specular views: expected at most {} faces with a filter on a path, found {}",
+                                    kMostFilters, out.size()));
+        return out;
     }
 
     void dropHidden(std::vector<int> path, int face, std::vector<Branch>& branches) const {
@@ -228,8 +251,8 @@ private:
             for (int i = 0; i < count; ++i) {
                 // A second face takes its samples in another order.
                 const int sample = before < 0 ? i : (before * 7 + 3) % options_.shears;
-                const Vec2 facet = gaussian(sample, options_.sampling);
-                FacetShear shear{face.specular.spread * facet, 1};
+                const Vec2 facet = facetSample(sample, options_.sampling);
+                FacetShear shear{face.specular.spread * facet, 1, {}};
                 if (face.specular.roughness > 0) {
                     std::optional<double> eta;
                     if (branch.bounce == Bounce::Refracted)

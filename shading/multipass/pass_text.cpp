@@ -55,6 +55,7 @@ std::string lightText(const PassSchedule& schedule, int light, const std::vector
     std::string out = named ? lightNames[l.light] : fmt::format("light {}", l.light);
     if (!l.image) return out;
     for (const LightBounce& b : l.image->bounces) out += " > " + nameOf(schedule, names, b.face) + howText(b.how);
+    if (l.image->shear >= 0) out += fmt::format(" {}", l.image->shear);
     return out;
 }
 

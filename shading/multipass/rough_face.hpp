@@ -9,7 +9,11 @@ namespace nacre {
 struct FacetShear {
     Vec2 slope{0};      ///< for shearedEye
     double weight = 0;  ///< of the facet's light; 0: it sends none this way
+    Vec3 facet{0};      ///< its normal, unit
 };
+
+/// Sample i of two independent standard Gaussians (Box and Muller's).
+Vec2 facetSample(int i, ShearSampling sampling);
 
 /// A facet of Beckmann's distribution (Walter et al. 2007) as the ray that meets the face towards the eye sees it. The
 /// ray's new direction is exact; that all rays of the view are off by the same slope is MPR's approximation (section

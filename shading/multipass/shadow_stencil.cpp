@@ -2,6 +2,8 @@
 
 #include <epoxy/gl.h>
 
+#include <algorithm>
+
 #include "core/error.hpp"
 #include "shading/context.hpp"
 #include "shading/draw.hpp"
@@ -45,15 +47,28 @@ GpuShadowPoints::GpuShadowPoints(const ShadowMesh& mesh) {
     require(!mesh.positions.empty(), "shadow volume: a mesh without points");
     std::vector<glm::vec4> points;
     for (const glm::vec3& p : mesh.positions) points.insert(points.end(), {glm::vec4(p, 0), glm::vec4(p, 1)});
-    bytes_ = points.size() * sizeof(glm::vec4);
+    std::vector<std::uint32_t> triangles;
+    for (const glm::uvec3& t : mesh.triangles) triangles.insert(triangles.end(), {2 * t.x, 2 * t.y, 2 * t.z});
+    indices_ = triangles.size();
+    const std::size_t pointBytes = points.size() * sizeof(glm::vec4), listBytes = indices_ * sizeof(std::uint32_t);
+    bytes_ = pointBytes + listBytes;
+    glBindVertexArray(array_.name());
     glBindBuffer(GL_ARRAY_BUFFER, buffer_.name());
-    glBufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(bytes_), points.data(), GL_STATIC_DRAW);
+    glBufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(pointBytes), points.data(), GL_STATIC_DRAW);
+    glEnableVertexAttribArray(0);
+    glVertexAttribPointer(0, 4, GL_FLOAT, GL_FALSE, sizeof(glm::vec4), nullptr);
+    glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, triangles_.name());
+    glBufferData(GL_ELEMENT_ARRAY_BUFFER, static_cast<GLsizeiptr>(listBytes), triangles.data(), GL_STATIC_DRAW);
+    glBindVertexArray(0);
     glBindBuffer(GL_ARRAY_BUFFER, 0);
     checkGl("uploading a shadow volume's points");
 }
 
 GpuShadowVolume::GpuShadowVolume(const GpuShadowPoints& points, const ShadowVolume& volume)
-    : shape_(volume), bytes_(volume.bytes()) {
+    : points_(&points),
+      shape_(volume),
+      wholeCaps_(!volume.cut && std::max(volume.caps, volume.capsTurned) == points.indices_),
+      bytes_(volume.bytes() - (wholeCaps_ ? points.indices_ * sizeof(std::uint32_t) : 0)) {
     glBindVertexArray(array_.name());
     glBindBuffer(GL_ARRAY_BUFFER, points.buffer_.name());
     glEnableVertexAttribArray(0);
@@ -80,6 +95,11 @@ void GpuShadowVolume::drawCaps(bool far, bool turnedOver) const {
     const std::uint32_t count =
         own ? (turnedOver ? shape_.farCapsTurned : shape_.farCaps) : (turnedOver ? shape_.capsTurned : shape_.caps);
     if (count == 0) return;
+    if (wholeCaps_) {
+        glBindVertexArray(points_->array_.name());
+        glDrawElementsBaseVertex(GL_TRIANGLES, static_cast<GLsizei>(count), GL_UNSIGNED_INT, nullptr, far ? 1 : 0);
+        return;
+    }
     const std::size_t all = bytes_ / sizeof(std::uint32_t), first = all - farOwn - (own ? 0 : nearAll);
     glBindVertexArray(array_.name());
     glDrawElementsBaseVertex(GL_TRIANGLES, static_cast<GLsizei>(count), GL_UNSIGNED_INT,

@@ -11,7 +11,7 @@
 
 namespace nacre {
 
-/// A mesh's points, each twice (ShadowVolume). 32 bytes a point.
+/// A mesh's points, each twice (ShadowVolume), and its triangles. 32 bytes a point, 12 a triangle.
 class GpuShadowPoints {
 public:
     /// Leaves array buffer 0 bound. \throws std::invalid_argument without points
@@ -20,14 +20,17 @@ public:
 
 private:
     friend class GpuShadowVolume;
-    Buffer buffer_;
+    VertexArray array_;  ///< of the triangles
+    Buffer buffer_, triangles_;
+    std::size_t indices_ = 0;
     std::size_t bytes_ = 0;
 };
 
-/// A volume's lists. Move-only.
+/// A volume's lists. Move-only. Caps that are all of the mesh's triangles, of a flat one for instance, aren't stored
+/// again.
 class GpuShadowVolume {
 public:
-    /// \param points  outlives this
+    /// \param points  of the mesh that the volume was made of; outlives this
     GpuShadowVolume(const GpuShadowPoints& points, const ShadowVolume& volume);
     std::size_t bytes() const { return bytes_; }
 
@@ -37,7 +40,9 @@ private:
     void drawCaps(bool far, bool turnedOver) const;
     VertexArray array_;
     Buffer indices_;
+    const GpuShadowPoints* points_;
     ShadowVolume shape_;  ///< without its indices
+    bool wholeCaps_;      ///< the points' own triangles
     std::size_t bytes_ = 0;
 };
 

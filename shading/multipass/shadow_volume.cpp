@@ -131,7 +131,7 @@ ShadowVolume makeShadowVolume(const ShadowMesh& mesh, const CutShadowMesh& cut, 
 
 std::size_t bytesOfVolumeAPolygon(const ShadowMesh& mesh, const Vec4& light) {
     const std::size_t side = light.w == 0 ? 3 : 6;
-    return mesh.triangles.size() * (3 * side + 3) * sizeof(std::uint32_t);
+    return mesh.triangles.size() * 3 * side * sizeof(std::uint32_t);
 }
 
 bool windowIsLit(std::span<const Vec3> window, const Bounds& casters, const Vec4& light) {

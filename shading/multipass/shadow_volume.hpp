@@ -51,7 +51,8 @@ ShadowVolume makeShadowVolume(const ShadowMesh& mesh, const glm::dmat4& toWorld,
 ShadowVolume makeShadowVolume(const ShadowMesh& mesh, const CutShadowMesh& cut, const glm::dmat4& toWorld,
                               const Vec4& light);
 
-/// Bytes of the same encoding with a volume for each polygon: three sides and a cap each.
+/// Bytes of the same encoding with a volume for each polygon: three sides each. Its caps are the mesh's own triangle,
+/// which isn't stored again.
 std::size_t bytesOfVolumeAPolygon(const ShadowMesh& mesh, const Vec4& light);
 
 /// Whether no point of `window` is in the shadow of what is in `casters`, proved by a plane between both and the light.

@@ -11,7 +11,7 @@ namespace nacre {
 namespace {
 
 /// Single precision, and what exporters round.
-constexpr double kFlat = 1e-4;
+constexpr double kFlat = 1e-4, kFlatUv = 1e-3;
 
 double cross(const Vec2& a, const Vec2& b) { return a.x * b.y - a.y * b.x; }
 
@@ -92,6 +92,7 @@ double twiceArea(const std::vector<Vec2>& p) {
 
 std::vector<SpecularFace> specularFaces(const SceneDescription& scene, const std::vector<glm::dmat4>& nodes) {
     std::vector<SpecularFace> out;
+    const std::vector<glm::vec4> rects = faceImageRects(scene);
     for (std::size_t i = 0; i < scene.nodes.size(); ++i) {
         const SceneMaterial* material = specularMaterial(scene, scene.nodes[i]);
         if (!material || scene.nodes[i].mesh < 0) continue;
@@ -101,6 +102,10 @@ std::vector<SpecularFace> specularFaces(const SceneDescription& scene, const std
         if (!flat.hasArea) continue;
         if (glm::determinant(glm::dmat3(nodes[i])) < 0) flat.plane = -flat.plane;
         out.push_back({i, flat.plane, outlineOf(points, flat.plane), *material->specular});
+        const glm::vec4& rect = rects[static_cast<std::size_t>(scene.nodes[i].material)];
+        if (rect.z == 0) continue;
+        out.back().image = faceImage(points, mesh);
+        out.back().image.rect = rect;
     }
     return out;
 }
@@ -110,23 +115,44 @@ bool hasSpecular(const SceneDescription& scene) {
                        [&](const SceneNode& node) { return specularMaterial(scene, node) != nullptr; });
 }
 
-void checkSpecular(const SceneDescription& scene) {
-    for (const SceneMaterial& m : scene.materials) {
-        if (!m.specular) continue;
-        const SceneSpecular& s = *m.specular;
-        require(isFinite(s.reflection) && isFinite(s.transmission) && s.surface >= 0 && s.surface <= 1 &&
-                    (!s.ior || (std::isfinite(*s.ior) && *s.ior > 0)) && isFinite(s.fog) &&
-                    std::isfinite(s.fogDistance) && s.fogDistance >= 0 && std::isfinite(s.spread) && s.spread >= 0 &&
-                    std::isfinite(s.roughness) && s.roughness >= 0 && (s.spread == 0 || s.roughness == 0),
-                "material '" + m.name +
-                    "': specular: expected finite factors, surface in [0, 1], ior > 0, fogDistance, spread and "
-                    "roughness >= 0, "
-                    "one of the last two");
-        require(!s.texture || (s.texture->channels() == 4 && s.texture->width() > 0),
-                "material '" + m.name + "': specular: expected a texture of 4 channels");
-        if (s.texture && m.relief)
-            throw Error(fmt::format("material '{}': specular: expected a texture or a relief, found both", m.name));
-    }
+/// Of a material's own.
+static void checkMaterial(const SceneMaterial& m, const SceneSpecular& s) {
+    require(isFinite(s.reflection) && isFinite(s.transmission) && s.surface >= 0 && s.surface <= 1 &&
+                (!s.ior || (std::isfinite(*s.ior) && *s.ior > 0)) && isFinite(s.fog) && std::isfinite(s.fogDistance) &&
+                s.fogDistance >= 0 && std::isfinite(s.spread) && s.spread >= 0 && std::isfinite(s.roughness) &&
+                s.roughness >= 0 && (s.spread == 0 || s.roughness == 0),
+            "material '" + m.name +
+                "': specular: expected finite factors, surface in [0, 1], ior > 0, fogDistance, spread and "
+                "roughness >= 0, "
+                "one of the last two");
+    require(!s.texture || (s.texture->channels() == 4 && s.texture->width() > 0),
+            "material '" + m.name + "': specular: expected a texture of 4 channels");
+    require(!s.filter || (s.filter->channels() == 4 && s.filter->width() > 0),
+            "material '" + m.name + "': specular: expected a filter of 4 channels");
+    if (s.filter && s.texture && (s.filter->width() != s.texture->width() || s.filter->height() != s.texture->height()))
+        throw Error(
+            fmt::format("material '{}': specular: expected a filter of the texture's size, {} x {}, found "
+                        "{} x {}",
+                        m.name, s.texture->width(), s.texture->height(), s.filter->width(), s.filter->height()));
+    if (s.texture && m.relief)
+        throw Error(fmt::format("material '{}': specular: expected a texture or a relief, found both", m.name));
+}
+
+/// The picture of a face, if there is one.
+static void checkImage(const SceneDescription& scene, const SceneNode& node, const SceneMaterial& material) {
+    if (node.mesh < 0 || (!material.specular->texture && !material.specular->filter)) return;
+    const Mesh& mesh = scene.meshes[static_cast<std::size_t>(node.mesh)].mesh;
+    const std::vector<Vec3> points = placed(mesh, glm::dmat4(1));
+    if (!planeOf(points, mesh.triangles).hasArea) return;
+    const double off = faceImage(points, mesh).off;
+    if (off > kFlatUv)
+        throw Error(
+            fmt::format("node '{}': expected uv that are an affine map of the face, for the picture of the "
+                        "specular material '{}', found a vertex {:g} off",
+                        node.name, material.name, off));
+}
+
+void checkPlanarFaces(const SceneDescription& scene) {
     for (const SceneNode& node : scene.nodes) {
         const SceneMaterial* material = specularMaterial(scene, node);
         if (!material) continue;
@@ -138,6 +164,14 @@ void checkSpecular(const SceneDescription& scene) {
         const MeshPlane flat = planeOf(placed(mesh, glm::dmat4(1)), mesh.triangles);
         if (flat.off > kFlat * flat.size) throw Error(fmt::format("{}a vertex {:g} off its plane", where, flat.off));
     }
+}
+
+void checkSpecular(const SceneDescription& scene) {
+    for (const SceneMaterial& m : scene.materials)
+        if (m.specular) checkMaterial(m, *m.specular);
+    checkPlanarFaces(scene);
+    for (const SceneNode& node : scene.nodes)
+        if (const SceneMaterial* material = specularMaterial(scene, node)) checkImage(scene, node, *material);
 }
 
 }  // namespace nacre

@@ -25,10 +25,11 @@ enum class ShearSampling {
 };
 
 inline constexpr int kMostLightBounces = 4;
+inline constexpr int kMostFilters = 8;  ///< faces with a SceneSpecular::filter on a path from the eye
 
 struct SpecularOptions {
     int depth = 4;       ///< specular surfaces along a path from the eye, ≥ 0
-    int lightDepth = 0;  ///< specular surfaces along a path from a lamp with a SceneShadow, 0 to kMostLightBounces;
+    int lightDepth = 2;  ///< specular surfaces along a path from a lamp with a SceneShadow, 0 to kMostLightBounces;
                          ///< 0: they block such light and send none on
     RefractionAngle angle = RefractionAngle::WindowCentre;
     RefractedEye eye = RefractedEye::OnNormal;

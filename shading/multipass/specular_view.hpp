@@ -11,8 +11,10 @@
 #pragma once
 
 #include <optional>
+#include <vector>
 
 #include "core/scene.hpp"
+#include "shading/multipass/placed_image.hpp"
 #include "shading/multipass/specular_options.hpp"
 
 namespace nacre {
@@ -33,8 +35,9 @@ struct SpecularView {
 /// What becomes of the light that a view draws.
 struct ViewLight {
     Rgb factor{1};
-    Rgb fog{0};              ///< what it fades to …
-    double fogDistance = 0;  ///< … at this distance from the clip plane; 0: no fog
+    Rgb fog{0};                          ///< what it fades to …
+    double fogDistance = 0;              ///< … at this distance from the clip plane; 0: no fog
+    std::vector<PlacedImage> filters{};  ///< and what it is multiplied by; at most kMostFilters
 };
 
 SpecularView viewOf(const Camera& camera, double aspect);

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "core/error.hpp"
+#include "shading/multipass/rough_face.hpp"
 
 namespace nacre {
 namespace {
@@ -45,27 +46,33 @@ struct Beam {
 
 class Finder {
 public:
-    Finder(const std::vector<SpecularFace>& faces, const std::vector<bool>& sending, std::size_t most)
-        : faces_(faces), sending_(sending), most_(most) {}
+    Finder(const std::vector<SpecularFace>& faces, const std::vector<bool>& sending, const SpecularOptions& options)
+        : faces_(faces), sending_(sending), options_(options) {}
 
     void follow(const Beam& beam, int left) {
         if (left == 0) return;
         for (std::size_t f = 0; f < faces_.size(); ++f) {
             if (!sending_[f] || (!beam.light.bounces.empty() && beam.light.bounces.back().face == int(f))) continue;
+            const SceneSpecular& specular = faces_[f].specular;
+            if (specular.scatters() && !beam.light.bounces.empty()) continue;
             const Vec4 source = beam.light.stages.back().source;
             const int side = sideOf(viewFrom(source), faces_[f].plane);
             if (side == 0) continue;
             const std::vector<Vec3> lit = litOf(beam, faces_[f]);
             if (lit.empty()) continue;
             for (const Bounce how : {Bounce::Reflected, Bounce::Refracted}) {
-                Beam next = beam;
-                next.outline = lit;
-                next.side = how == Bounce::Reflected ? side : -side;
-                if (!bounce(next.light, int(f), how, side, middleOf(lit))) continue;
-                if (found.size() == most_)
-                    throw Error(fmt::format("light paths: expected at most {}, found more", most_));
-                found.push_back(next.light);
-                follow(next, left - 1);
+                for (int i = 0; i < (specular.scatters() ? options_.shears : 1); ++i) {
+                    Beam next = beam;
+                    next.outline = lit;
+                    next.side = how == Bounce::Reflected ? side : -side;
+                    if (specular.scatters()) next.light.shear = i;
+                    if (!bounce(next.light, int(f), how, side, middleOf(lit))) continue;
+                    if (found.size() == options_.most)
+                        throw Error(fmt::format("light paths: expected at most {}, found more", options_.most));
+                    found.push_back(next.light);
+                    placeImages(found.back());
+                    if (!specular.scatters()) follow(next, left - 1);
+                }
             }
         }
     }
@@ -73,6 +80,26 @@ public:
     std::vector<VirtualLight> found;
 
 private:
+    /// From what is lit back to the lamp: each face's point is the next one's, or what is lit, seen from the stage.
+    void placeImages(VirtualLight& light) const {
+        glm::dmat4 onto(1);
+        bool any = false;
+        for (std::size_t k = light.bounces.size(); k-- > 0;) {
+            const SpecularFace& face = faces_[static_cast<std::size_t>(light.bounces[k].face)];
+            const LightStage& after = light.stages[k + 1];
+            const SceneSpecular& s = face.specular;
+            const Vec4 height = s.fogDistance > 0 ? after.within.front() / s.fogDistance * onto : Vec4(0);
+            onto = projectionFrom(after.source, face.plane) * onto;
+            PlacedImage image = placedImage(face.image, onto);
+            for (int c = 0; c < 4; ++c) image.place[c][3] = height[c];
+            image.filters = s.filter && filtersLight(s, light.bounces[k].how);
+            image.surface = s.texture ? s.surface : 0;
+            any = any || image.filters || image.surface > 0 || s.fogDistance > 0;
+            light.images.push_back(image);
+        }
+        if (!any) light.images.clear();
+    }
+
     /// What the beam lights of a face: its outline, cut by the planes through the source and the beam's edges.
     static std::vector<Vec3> litOf(const Beam& beam, const SpecularFace& face) {
         std::vector<Vec3> lit = face.outline;
@@ -95,7 +122,7 @@ private:
         const SpecularFace& f = faces_[static_cast<std::size_t>(face)];
         const SceneSpecular& s = f.specular;
         const bool reflects = how == Bounce::Reflected;
-        const double rest = 1 - s.surface, eta = !s.ior ? 1 : side > 0 ? *s.ior : 1 / *s.ior;
+        const double rest = s.texture ? 1 : 1 - s.surface, eta = !s.ior ? 1 : side > 0 ? *s.ior : 1 / *s.ior;
         const Rgb factor = rest * (reflects ? s.reflection : s.transmission);
         if (factor == Rgb(0) || (!s.ior && !reflects)) return false;
         const Vec4 source = light.stages.back().source;
@@ -104,16 +131,22 @@ private:
         const bool weighed = s.ior && s.partial && eta != 1;
         if (s.ior && (reflects ? !weighed && refractedSource.has_value() : !refractedSource)) return false;
 
+        FacetShear shear{{0, 0}, 1, Vec3(f.plane)};
+        if (light.shear >= 0) {
+            shear = shearOf(light, f, reflects ? std::nullopt : std::optional(eta), middle);
+            light.seen.color *= shear.weight / options_.shears;
+            if (shear.weight == 0) return false;
+        }
         LightStage after;
         glm::dmat4 through(1);
-        if (reflects) {
+        if (reflects && light.shear < 0) {
             through = mirrorOf(f.plane);
             after.source = through * source;
         } else {
-            after.source = *refractedSource;
+            after.source = shearedEye(reflects ? mirrorOf(f.plane) * source : *refractedSource, f.plane, shear.slope);
             const Vec4 slope = (after.source - source) / glm::dot(f.plane, source);
             for (int c = 0; c < 4; ++c) through[c] += f.plane[c] * slope;
-            light.seen.color *= glm::dot(f.plane, source) / glm::dot(f.plane, after.source);
+            light.seen.color *= std::abs(glm::dot(f.plane, source) / glm::dot(f.plane, after.source));
         }
         light.seen.color *= factor;
         LightStage& before = light.stages.back();
@@ -125,11 +158,21 @@ private:
         const Mat3 back = glm::inverse(Mat3(through));
         for (WeighedBounce& w : light.weighed) w.turn = w.turn * back;
         light.toLamp = light.toLamp * back;
-        if (weighed) light.weighed.push_back({back, Vec3(f.plane), reflects ? -eta : eta});
+        if (weighed) light.weighed.push_back({back, shear.facet, reflects ? -eta : eta});
         light.stages.push_back(after);
         light.bounces.push_back({face, how});
         light.seen.position = Vec3(after.source);
         return true;
+    }
+
+    /// As the light's ray to the middle of what it lights is turned, all of its rays are.
+    FacetShear shearOf(const VirtualLight& light, const SpecularFace& face, const std::optional<double>& eta,
+                       const Vec3& middle) const {
+        const Vec2 sample = facetSample(light.shear, options_.sampling);
+        const SceneSpecular& s = face.specular;
+        if (s.roughness == 0) return {s.spread * sample, 1, Vec3(face.plane)};
+        return facetShear(towardsEye(viewFrom(light.stages.back().source), middle), face.plane, eta, s.roughness,
+                          sample);
     }
 
     static glm::dmat4 mirrorOf(const Plane& plane) {
@@ -140,7 +183,7 @@ private:
 
     const std::vector<SpecularFace>& faces_;
     const std::vector<bool>& sending_;
-    std::size_t most_;
+    const SpecularOptions& options_;
 };
 
 }  // namespace
@@ -152,20 +195,20 @@ bool isRefracted(const VirtualLight& light) {
 
 std::vector<bool> sendingFaces(const SceneDescription& scene, const std::vector<SpecularFace>& faces) {
     std::vector<bool> out;
-    for (const SpecularFace& face : faces)
-        out.push_back(scene.nodes[face.node].castsShadow && !face.specular.scatters());
+    for (const SpecularFace& face : faces) out.push_back(scene.nodes[face.node].castsShadow);
     return out;
 }
 
 std::vector<VirtualLight> virtualLights(const std::vector<SpecularFace>& faces, const std::vector<bool>& sending,
-                                        const Light& light, int depth, std::size_t most) {
-    require(depth >= 0 && depth <= kMostLightBounces && sending.size() == faces.size(),
+                                        const Light& light, const SpecularOptions& options) {
+    const int depth = options.lightDepth;
+    require(depth >= 0 && depth <= kMostLightBounces && sending.size() == faces.size() && options.shears >= 1,
             fmt::format("light paths: expected a depth of 0 to {}", kMostLightBounces));
     Beam lamp;
     lamp.light.seen = light;
     lamp.light.stages.resize(1);
     lamp.light.stages[0].source = homogeneousOf(light);
-    Finder finder(faces, sending, most);
+    Finder finder(faces, sending, options);
     finder.follow(lamp, depth);
     return std::move(finder.found);
 }

@@ -34,18 +34,22 @@ struct LightStage {
 
 /// Fresnel's share at a face, found a pixel at a time.
 struct WeighedBounce {
-    Mat3 turn{1};  ///< takes the direction to the virtual light to that to the light before the face
-    Vec3 normal{0};
+    Mat3 turn{1};      ///< takes the direction to the virtual light to that to the light before the face
+    Vec3 normal{0};    ///< of the face, or of a rough one's facet
     double index = 0;  ///< beyond over before; < 0: of what is reflected
 };
 
 struct VirtualLight {
     std::size_t light = 0, point = 0;  ///< of the scene, and of its area
     std::vector<LightBounce> bounces;  ///< none: the lamp itself
+    int shear = -1;                    ///< which sample of a frosted or glossy face, the only one on the way
     std::vector<LightStage> stages;    ///< one more
-    Light seen;  ///< at the last stage's source; its color has all factors but `weighed` and 1 / |toLamp d|³ in the
-                 ///< direction d; its cone is the lamp's own
+    Light seen;  ///< at the last stage's source; its color has all factors but `weighed`, `images` and
+                 ///< 1 / |toLamp d|³ in the direction d; its cone is the lamp's own
     std::vector<WeighedBounce> weighed;
+    /// Of the faces' pictures and fog, the last face first; none where no face has any. Row h of a place over the w of
+    /// the entry before, of the first over 1, is what share fog takes behind the face.
+    std::vector<PlacedImage> images;
     Mat3 toLamp{1};  ///< takes the direction to it to that in which the lamp is seen, up to length
 };
 
@@ -58,12 +62,14 @@ struct ScheduledLight {
     std::optional<VirtualLight> image;  ///< none: the lamp itself, with all points of its area
 };
 
-/// Faces that take part: their nodes cast shadows and they scatter nothing. What isn't blocked by a face isn't sent on.
+/// Faces that take part: their nodes cast shadows. What isn't blocked by a face isn't sent on.
 std::vector<bool> sendingFaces(const SceneDescription& scene, const std::vector<SpecularFace>& faces);
 
-/// All of a light's images of 1 to `depth` bounces whose beam, cut by each face's outline, isn't empty.
-/// \param sending  one a face. \throws nacre::Error when they are more than `most`
+/// All of a light's images of 1 to `lightDepth` bounces whose beam, cut by each face's outline, isn't empty. A frosted
+/// or glossy face has options.shears of them, each with its share and sheared about the face's normal as a view is (MPR
+/// section 3); what other faces send to it, or it to them, is left out. \param sending  one a face
+/// \throws nacre::Error when they are more than options.most
 std::vector<VirtualLight> virtualLights(const std::vector<SpecularFace>& faces, const std::vector<bool>& sending,
-                                        const Light& light, int depth, std::size_t most);
+                                        const Light& light, const SpecularOptions& options);
 
 }  // namespace nacre

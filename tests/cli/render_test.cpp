@@ -146,7 +146,8 @@ TEST(CommandRender, MirrorsAndPanesAreDrawnTracedAndListed) {
     const json without = render("0"), with = render("1");
     EXPECT_EQ(without["light_paths"]["images"], 0);
     EXPECT_EQ(with["light_paths"]["images"], 1) << "the mirror's; the pane casts no shadow";
-    EXPECT_EQ(with["light_paths"]["passes"], 2 * (1 + with["specular_views"].get<int>()));
+    EXPECT_GT(with["light_paths"]["passes"], 1 + with["specular_views"].get<int>());
+    EXPECT_LE(with["light_paths"]["passes"], 2 * (1 + with["specular_views"].get<int>()));
     EXPECT_GT(with["errors"]["all"]["psnr"], 32);
     const Outcome lights = nacre({"render", scene, "--passes", "--light-paths", "1"});
     EXPECT_THAT(lights.out, HasSubstr("lamp > looking-glass reflects: add in 1 light volume"));
@@ -238,7 +239,9 @@ TEST(CommandRender, InStages) {
     for (const char* stage : {"", "-direct", "-indirect", "-traced"})
         for (const char* what : {"", "-reference", "-difference"})
             EXPECT_TRUE(std::filesystem::exists(scratch / (std::string("s") + stage + what + ".png"))) << stage << what;
-    EXPECT_EQ(nacre({"render", scene, "-o", scratch / "v.png"}).code, 1) << "views of planar mirrors alone";
+    const Outcome views = nacre({"render", scene, "-o", scratch / "v.png"});
+    EXPECT_EQ(views.code, 1) << "views of planar mirrors alone";
+    EXPECT_THAT(views.err, HasSubstr("--specular traced draws curved meshes"));
     const Outcome sampled = nacre({"render", scene, "-o", scratch / "l.png", "--size", "48x48", "--samples", "1",
                                    "--shadows", "sampled", "--specular", "traced", "--repeat", "2", "--json"});
     ASSERT_EQ(sampled.code, 0) << sampled.err;

@@ -77,6 +77,40 @@ TEST(LightPath, AMirrorIsALightBehindIt) {
     EXPECT_TRUE(f.arrivals(lampAt({-0.9, 0, 2}), {0.9, 0, -1}).empty()) << "it isn't a pane";
 }
 
+/// Of a slab: a colour of the first face, fog in the glass, a texture's alpha at the second.
+TEST(LightPath, FiltersFogAndTexturesTakeTheirShares) {
+    auto filter = std::make_shared<Image>(2, 1, 4);
+    filter->setRgb(0, 0, {1, 0.5, 0});
+    filter->setRgb(1, 0, {0.5, 0, 1});
+    auto texture = std::make_shared<Image>(1, 1, 4);
+    texture->at(0, 0, 3) = 0.25f;
+    SceneSpecular first = pane(1), second = pane(1);
+    first.filter = filter;
+    first.fogDistance = 2;
+    second.texture = texture;
+    second.surface = 0.8;
+    Faces f;
+    f.add({0, 0, 1}, 0, {0, 0, 1}, 1, first);
+    f.add({0, 0, 0}, 0, {0, 0, 1}, 1, second);
+    // The ray meets the first face at x = 0: halfway between the two texels' centres.
+    const auto found = f.arrivals(lampAt({-0.5, 0, 2}), {1, 0, -1});
+    ASSERT_EQ(found.size(), 1u);
+    const Vec3 offset(-1.5, 0, 3);
+    const Rgb want = Rgb(3, 2, 1) * Rgb(0.75, 0.25, 0.5) * 0.5 * 0.8 / glm::dot(offset, offset);
+    EXPECT_LT(glm::length(found[0].irradiance - want), 1e-6);
+    const auto sun = f.arrivals({true, glm::normalize(offset), Rgb(3, 2, 1), {}}, {1, 0, -1});
+    ASSERT_EQ(sun.size(), 1u);
+    EXPECT_LT(glm::length(sun[0].irradiance - want * glm::dot(offset, offset)), 1e-6);
+    // A mirror's filter is of what it reflects, a pane's isn't.
+    SceneSpecular gold = mirror();
+    gold.filter = filter;
+    Faces g;
+    g.add({0, 0, 0}, 0, {0, 0, 1}, 1, gold);
+    const auto reflected = g.arrivals(lampAt({-1, 0, 1}), {1, 0, 1});
+    ASSERT_EQ(reflected.size(), 1u);
+    EXPECT_LT(glm::length(reflected[0].irradiance - Rgb(3, 2, 1) * Rgb(0.75, 0.25, 0.5) / 8.0), 1e-6);
+}
+
 TEST(LightPath, WhatStandsBeforeOrAfterAFaceBlocks) {
     for (const Vec3& at : {Vec3(-1 / 3.0, 0, 1), Vec3(2 / 3.0, 0, 0.5), Vec3(0, 0, 1.5)}) {
         Faces f;

@@ -36,7 +36,7 @@ constexpr const char* kEverything = R"({
                       "multipleScattering": true, "combine": "blend"}},
     "b": {"model": "lambert"},
     "c": {"specular": {"ior": 1.5, "reflection": 1, "transmission": [1, 0.9, 1], "partial": false, "surface": 0.1,
-      "texture": "dot.exr", "fog": 0.5, "fogDistance": 2, "spread": 0.1}}
+      "texture": "dot.exr", "filter": {"colors": {"a": 0.5, "b": [1, 0, 0]}, "rows": ["ab", "ba"]}, "fog": 0.5, "fogDistance": 2, "spread": 0.1}}
   },
   "lights": {
     "sun": {"type": "directional", "color": [1, 1, 1], "intensity": 2, "direction": [0, -1, 0],
@@ -199,7 +199,7 @@ TEST_F(SceneSchema, SchemaAndReaderKnowTheSameKeys) {
         EXPECT_TRUE(schema_.accepts(schema_.root(), scene));
         visit(scene, schema_.root(), json::json_pointer());
     }
-    EXPECT_EQ(objects_.size(), 22u) << "kinds of objects";
+    EXPECT_EQ(objects_.size(), 23u) << "kinds of objects";
     for (const auto& [schema, keys] : objects_) {
         EXPECT_EQ(keys.inSchema, keys.inReader) << schema->dump();
         EXPECT_EQ(keys.inSchema, keys.used) << "kEverything and kOtherwise must use every key of " << schema->dump();
@@ -220,6 +220,8 @@ TEST_F(SceneSchema, BothRefuse) {
                                                                {"/volumes/cube/step", 0},
                                                                {"/materials/a/ambient", {1, 2}},
                                                                {"/materials/a/ambient", -1},
+                                                               {"/materials/c/specular/reflection", 1e38},
+                                                               {"/materials/c/specular/filter/rows", 1},
                                                                {"/materials/a/relief/shadow", "soft"},
                                                                {"/materials/a/relief/tiles", {1, 0}},
                                                                {"/materials/a/relief/bounces", 17},

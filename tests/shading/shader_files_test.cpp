@@ -263,7 +263,12 @@ std::vector<ProgramCase> programs() {
     out.push_back({"sky.vert.glsl", "background.frag.glsl", {view}, true});
     out.push_back({"sky.vert.glsl", "sky.frag.glsl", combined({surroundings.back()}, {view}), true});
     out.push_back({"lit.vert.glsl", "scene.frag.glsl", combined({{}, everything}, {view}), true});
-    const ShaderDefines path{{"NACRE_LIGHT_PATH", "2"}};
+    const ShaderDefines filtered{{"NACRE_VIEW", "1"}, {"NACRE_VIEW_FILTERS", "2"}};
+    out.push_back({"lit.vert.glsl", "face.frag.glsl", {filtered}, true});
+    out.push_back({"sky.vert.glsl", "background.frag.glsl", {filtered}, true});
+    out.push_back({"sky.vert.glsl", "sky.frag.glsl", combined({surroundings.back()}, {filtered}), true});
+    const ShaderDefines path{{"NACRE_LIGHT_PATH", "2"}, {"NACRE_PATH_IMAGES", "2"}};
+    out.push_back({"lit.vert.glsl", "scene.frag.glsl", combined(combined({everything}, {path}), {filtered}), true});
     out.push_back({"lit.vert.glsl", "scene.frag.glsl", combined(combined({everything}, {path}), {view}), true});
     out.push_back({"lit_vertex.vert.glsl", "lit_vertex.frag.glsl", combined({spots}, {view}), true});
     out.push_back({"volume.vert.glsl", "volume.frag.glsl",

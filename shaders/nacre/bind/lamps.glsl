@@ -30,6 +30,7 @@ vec3 nacre_lamps_by(NacreBump point, vec3 to_eye, vec3 position, vec3 shadow_pos
 #endif
         if (direct || indirect) {
             vec3 arrives = nacre_light_color[i] * nacre_light_share(i, to_light, position);
+            arrives *= nacre_path_color(position);
 #ifdef NACRE_SHADOWS
             arrives *= nacre_shadow_lit(i, shadow_position, shadow_normal);
 #endif

@@ -91,5 +91,29 @@ TEST(SceneTracer, TracesTheSceneAndKnowsItsVersion) {
     EXPECT_THROW(tracer(view, 0, [] { return true; }), Error);
 }
 
+/// A lamp behind a board, and a mirror: lit as deep as the picture is, whose default is the library's.
+TEST(SceneTracer, FollowsLightAsDeepAsThePicture) {
+    ReferenceView view = smallView();
+    SceneDescription& scene = view.scene;
+    scene.meshes = {{"square", makeQuad(2)}};
+    scene.materials.resize(2);
+    scene.materials[0].model = "lambert:kd=0.5";
+    scene.materials[1].specular = SceneSpecular{};
+    scene.nodes.resize(2);
+    scene.nodes[0].mesh = scene.nodes[0].material = 0;
+    scene.nodes[1].mesh = 0, scene.nodes[1].material = 1;
+    scene.nodes[1].translation = {0, 0, 6};
+    scene.nodes[1].rotation = glm::angleAxis(kPi, Vec3(0, 1, 0));
+    SceneLight lamp;
+    lamp.light = {false, {0, 0, 5}, Rgb(20), {}};
+    lamp.shadow = SceneShadow{};
+    scene.lights = {lamp};
+    const ReferenceTracer tracer = sceneTracer(1);
+    const auto goesOn = [] { return false; };
+    const float sent = tracer(view, 0, goesOn).at(2, 2, 0);
+    view.switches.specular.lightDepth = 0;
+    EXPECT_GT(sent, 1.3f * tracer(view, 0, goesOn).at(2, 2, 0));
+}
+
 }  // namespace
 }  // namespace nacre

@@ -24,6 +24,17 @@ void keep(const Image& image, const std::string& name, double white) {
         writePng(image, std::filesystem::path(folder) / (name + ".png"), {white});
 }
 
+/// Means of 8 × 8 pixels: little of random rays' noise is left.
+Image blockMeans(const Image& fine) {
+    constexpr int kBlock = 8;
+    Image out(fine.width() / kBlock, fine.height() / kBlock, 3);
+    for (int y = 0; y < out.height() * kBlock; ++y)
+        for (int x = 0; x < out.width() * kBlock; ++x)
+            out.setRgb(x / kBlock, y / kBlock,
+                       out.rgb(x / kBlock, y / kBlock) + fine.rgb(x, y) / double(kBlock * kBlock));
+    return out;
+}
+
 class LightPassesTest : public ::testing::Test {
 protected:
     void SetUp() override { test::context(); }
@@ -44,11 +55,13 @@ protected:
         options.specularDepth = on.specular.depth;
         options.lightDepth = on.specular.lightDepth;
         options.lightPoints = 256;
+        options.facePoints = facePoints_;
         const Image traced = traceScene(scene, scene.camera, openTruths(scene), {{}}, options).front();
         const double white = pictureWhite(traced);
         keep(drawn, name + "-drawn", white);
         keep(traced, name + "-traced", white);
         relative_ = compareImages(drawn, traced, white).relative;
+        smoothed_ = compareImages(blockMeans(drawn), blockMeans(traced), white).relative;
         int off = 0;
         for (int y = 0; y < kSize; ++y)
             for (int x = 0; x < kSize; ++x)
@@ -58,7 +71,8 @@ protected:
         return share;
     }
     ProgramLoader loader_;
-    double relative_ = 0;  ///< of the last pair
+    double relative_ = 0, smoothed_ = 0;  ///< of the last pair, and of its blocks' means
+    int facePoints_ = 16;
 };
 
 SceneSwitches withLights(int depth, ShadowMethod method = ShadowMethod::Volumes) {
@@ -241,6 +255,96 @@ TEST_F(LightPassesTest, FogBehindAFaceIsAddedOnce) {
     scene.materials[0].specular->fog = {0.3, 0.3, 0.5};
     scene.materials[0].specular->fogDistance = 3;
     EXPECT_LE(wrong(scene, withLights(0), "fog"), kEdges);
+}
+
+/// Coloured patches, some dark, and in alpha some that keep all back.
+std::shared_ptr<Image> patches(int size = 6) {
+    auto out = std::make_shared<Image>(size, size + 1, 4);
+    for (int y = 0; y <= size; ++y)
+        for (int x = 0; x < size; ++x) {
+            out->setRgb(x, y, {x % 3 == 0 ? 0.9 : 0.1, y % 2 == 0 ? 0.8 : 0.05, (x + y) % 4 == 0 ? 1 : 0.2});
+            out->at(x, y, 3) = (x + 2 * y) % 3 == 0 ? 1 : 0;
+        }
+    return out;
+}
+
+/// A lamp through leaning stained glass, seen through it too and in a mirror; both send its pattern on.
+TEST_F(LightPassesTest, StainedGlass) {
+    test::SpecularScene s = mirrorScene();
+    SceneSpecular glass;
+    glass.ior = 1;
+    glass.filter = patches();
+    s.face("stained", glass, {0.25, 0.3, 0.9}, 0.5, {1, 1, 0.2}, {0.5, 0.4, 1});
+    EXPECT_LE(wrong(s.scene, withLights(2), "stained"), 2 * kEdges);
+    s.scene.lights[0].light.cone = SpotCone{glm::normalize(Vec3(-0.5, -1.1, -1)), 0.3, 0.9};
+    EXPECT_LE(wrong(s.scene, withLights(1), "stained-spot"), 2 * kEdges);
+    s.scene.lights[0].light = {true, glm::normalize(Vec3(0.4, 1.2, 0.9)), Rgb(2), {}};
+    EXPECT_LE(wrong(s.scene, withLights(2), "stained-sun"), 2 * kEdges);
+}
+
+TEST_F(LightPassesTest, TwoStainedPanesInARow) {
+    test::SpecularScene s = mirrorScene();
+    SceneSpecular glass;
+    glass.ior = 1;
+    glass.filter = patches();
+    s.face("first", glass, {0.25, 0.3, 0.9}, 0.5, {1, 1, 0.2}, {0.5, 0.4, 1});
+    glass.filter = patches(3);
+    s.face("second", glass, {0.1, 0, 0.65}, 0.9, {1, 1, 0.2}, {0.6, 0.5, 1});
+    EXPECT_LE(wrong(s.scene, withLights(2), "stained-two"), 3 * kEdges);
+}
+
+/// A mirror's filter is of what it reflects; a texture's alpha and fog dim what it sends on.
+TEST_F(LightPassesTest, FilteredAndFoggedMirrors) {
+    SceneDescription scene = mirrorScene().scene;
+    SceneSpecular& mirror = *scene.materials[0].specular;
+    mirror.filter = patches();
+    EXPECT_LE(wrong(scene, withLights(1), "filtered-mirror"), 2 * kEdges);
+    mirror.texture = patches();
+    mirror.surface = 0.7;
+    EXPECT_LE(wrong(scene, withLights(1), "textured-mirror"), 2 * kEdges);
+    mirror.fog = {0.1, 0.2, 0.3};
+    mirror.fogDistance = 1.5;
+    EXPECT_LE(wrong(scene, withLights(1), "fogged-mirror"), 2 * kEdges);
+}
+
+/// Fresnel's shares, bent light, fog between two faces: a slab of coloured glass in the sun.
+TEST_F(LightPassesTest, AColouredSlabInTheSun) {
+    test::SpecularScene s = mirrorScene();
+    SceneSpecular glass;
+    glass.ior = 1.5;
+    glass.filter = patches();
+    glass.fogDistance = 0.8;
+    s.face("front", glass, {0.25, 0.3, 0.9}, 0.5, {1, 1, 0.2}, {0.5, 0.4, 1});
+    const glm::dmat4 front = nodeTransforms(s.scene, 0).back();
+    glass.fogDistance = 0;
+    SceneNode& back = s.face("back", glass, Vec3(front * Vec4(0, 0, -0.2, 1)), 0, {0, 1, 0}, {0.5, 0.4, 1});
+    back.rotation = s.scene.nodes[s.scene.nodes.size() - 2].rotation * glm::angleAxis(kPi, glm::dvec3(0, 1, 0));
+    s.scene.lights[0].light = {true, glm::normalize(Vec3(0.4, 1.2, 0.9)), Rgb(2), {}};
+    s.scene.camera.orthographic = true;
+    s.scene.camera.height = 3;
+    EXPECT_LE(wrong(s.scene, withLights(2), "slab"), 4 * kEdges);
+}
+
+/// A frosted pane and a glossy mirror light what is behind and before them; each sample is a light of its own.
+TEST_F(LightPassesTest, FrostedAndGlossyFacesScatterLight) {
+    test::SpecularScene s = mirrorScene();
+    SceneSpecular glass;
+    glass.ior = 1;
+    glass.spread = 0.2;
+    s.face("frosted", glass, {0.25, 0.3, 0.9}, 0.5, {1, 1, 0.2}, {0.5, 0.4, 1});
+    s.scene.materials[0].specular->spread = 0.15;
+    facePoints_ = 600;
+    SceneSwitches on = withLights(1);
+    on.specular.depth = 0;  // as they light, not as they look
+    double last = 1;
+    for (const int shears : {4, 16, 64}) {
+        on.specular.shears = shears;
+        wrong(s.scene, on, "frosted-" + std::to_string(shears), 0.02);
+        std::printf("  relative error %.4f, of blocks %.4f\n", relative_, smoothed_);
+        EXPECT_LT(smoothed_, last);
+        last = smoothed_;
+    }
+    EXPECT_LT(last, 0.02);
 }
 
 /// The lamp is behind the camera, and a ball close before it: eye, mirror and its near plane are in the ball's shadow.

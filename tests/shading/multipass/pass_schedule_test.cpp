@@ -93,6 +93,35 @@ TEST(PassSchedule, EachViewAddsEachLight) {
     EXPECT_TRUE(shadowedLamps(s.scene, on, nodes, lightsInWorld(s.scene, nodes)).empty());
 }
 
+/// What a pane shows of the side where the lamp is isn't lit by what goes through to the other.
+TEST(PassSchedule, ViewsAddTheLightsThatCanReachThem) {
+    test::SpecularScene s;
+    SceneSpecular glass;
+    glass.ior = 1.3;
+    glass.partial = false;
+    s.face("pane", glass, {0, 0, 0}, 0.2, {0, 1, 0}, Vec3(0.5));
+    SceneLight lamp;
+    lamp.light = {false, {0, 1, -2}, Rgb(1), {}};
+    lamp.shadow = SceneShadow{};
+    const auto lights = [&](const Vec3& at) {
+        s.scene.lights = {lamp};
+        s.scene.lights[0].light.position = at;
+        SceneSwitches on;
+        on.specular.lightDepth = 1;
+        const std::vector<glm::dmat4> nodes = nodeTransforms(s.scene, 0);
+        const std::vector<SpecularFace> faces = specularFaces(s.scene, nodes);
+        ScheduleInput input{s.scene.camera, 64, 64, Vec3(-1), Vec3(1), {}};
+        input.lights =
+            scheduledLights(s.scene, on, shadowedLamps(s.scene, on, nodes, lightsInWorld(s.scene, nodes)), faces);
+        EXPECT_EQ(input.lights.size(), 1u);
+        const PassSchedule schedule = makeSchedule(faces, input, on.specular);
+        EXPECT_EQ(schedule.views.size(), 2u);
+        return countsOf(schedule)[PassKind::Light];
+    };
+    EXPECT_EQ(lights({0, 1, -2}), 1) << "towards the camera: what it sees through the pane is on the other side";
+    EXPECT_EQ(lights({0, 1, 2}), 2) << "away from the camera";
+}
+
 TEST(PassSchedule, TwoFacingMirrorsAreDrawnInTurns) {
     for (const int depth : {0, 1, 2, 8, 30}) {
         SpecularOptions options;
@@ -131,6 +160,25 @@ TEST(PassSchedule, TooManyViewsAreReported) {
     options.depth = 8;
     options.most = 4;
     EXPECT_THROW(scheduleOf(test::hallOfMirrors(), options), Error);
+}
+
+/// Each view adds all lights: a list with few views can be too long to draw, and to wait for.
+TEST(PassSchedule, TooManyLightsInAllViewsAreReported) {
+    const SceneDescription scene = test::hallOfMirrors();
+    ScheduleInput input{scene.camera, 64, 64, Vec3(-5), Vec3(5), {}};
+    input.lights.resize(100);
+    SpecularOptions options;
+    options.most = 9;
+    const auto faces = specularFaces(scene, nodeTransforms(scene, 0));
+    options.depth = 1;
+    EXPECT_NO_THROW(makeSchedule(faces, input, options));
+    options.depth = 2;
+    try {
+        makeSchedule(faces, input, options);
+        FAIL();
+    } catch (const Error& error) {
+        EXPECT_THAT(error.what(), HasSubstr("expected at most 225 passes, found more at depth 2 with 100 lights"));
+    }
 }
 
 TEST(PassSchedule, CounterLeavesRoomForShadows) {

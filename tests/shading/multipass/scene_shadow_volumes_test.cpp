@@ -9,6 +9,7 @@
 #include "reference/image_compare.hpp"
 #include "reference/scene_trace.hpp"
 #include "shading/primitives.hpp"
+#include "shading/scene_file.hpp"
 #include "shading/scene_renderer.hpp"
 
 namespace nacre {
@@ -70,11 +71,14 @@ TEST_F(SceneShadowVolumesTest, OnlyWhatMovedIsMadeAgain) {
 }
 
 TEST_F(SceneShadowVolumesTest, StoredVolumesTakeAnEighthOfAVolumeAPolygon) {
-    SceneRenderer renderer(loader_, test::fullScene());
-    draw(renderer, ShadowMethod::Volumes);
-    const ShadowVolumeCounts counts = renderer.shadowVolumes();
-    EXPECT_GE(counts.bytesAPolygon, 8 * counts.bytes);
-    EXPECT_GT(counts.pointBytes, 0u);
+    for (const SceneDescription& scene :
+         {test::fullScene(), readScene(NACRE_SOURCE_DIR "/demos/scenes/cornell-box.json")}) {
+        SceneRenderer renderer(loader_, scene);
+        draw(renderer, ShadowMethod::Volumes);
+        const ShadowVolumeCounts counts = renderer.shadowVolumes();
+        EXPECT_GE(counts.bytesAPolygon, 8 * counts.bytes);
+        EXPECT_GT(counts.pointBytes, 0u);
+    }
 }
 
 TEST_F(SceneShadowVolumesTest, WithoutCastersTheLightIsTheSame) {

@@ -245,6 +245,50 @@ TEST(SpecularScene, TexturesBlendTheOwnLight) {
     EXPECT_LE(wrongShare(both(s.scene, {}, 4, "texture"), kGraded), kWrong);
 }
 
+/// Seen through each other, in a mirror, before fog and with the own light of what reflects by Fresnel.
+TEST(SpecularScene, FiltersColourWhatIsSeen) {
+    auto filter = std::make_shared<Image>(7, 5, 4);
+    for (int y = 0; y < 5; ++y)
+        for (int x = 0; x < 7; ++x) filter->setRgb(x, y, Rgb(x / 6.0, (x + y) % 2, 1 - y / 4.0));
+    SceneSpecular glass;
+    glass.ior = 1;
+    glass.filter = filter;
+    test::SpecularScene s;
+    s.face("pane", glass, {-0.2, 0, 0.4}, 0.3, {0, 1, 0}, Vec3(0.6));
+    s.face("behind", glass, {0.2, 0.1, 0}, -0.5, {1, 1, 0}, Vec3(0.5));
+    SceneSpecular mirror;
+    mirror.filter = filter;
+    mirror.surface = 0.2;
+    s.face("mirror", mirror, {0, 0, -1.5}, 0.2);
+    s.scene.materials.back().ambient = {0.4, 0, 0};
+    s.ball({1, 0.8, 0.7}, {0.3, 0.2, 1}, 0.3);
+    s.ball({0.5, 0.8, 0.9}, {-0.4, -0.2, -0.7}, 0.3);
+    s.scene.sky.color = {0.9, 0.7, 0.6};
+    EXPECT_LE(wrongShare(both(s.scene, {}, 4, "filters"), kGraded), 2 * kWrong);
+    for (SceneMaterial& m : s.scene.materials)
+        if (m.specular) m.specular->fog = {0.2, 0.3, 0.2}, m.specular->fogDistance = 2;
+    EXPECT_LE(wrongShare(both(s.scene, {}, 4, "filters in fog"), kGraded), 2 * kWrong);
+    s.scene.camera.orthographic = true;
+    s.scene.camera.height = 2;
+    for (SceneMaterial& m : s.scene.materials)
+        if (m.specular && m.specular->ior) m.specular->ior = 1.4;
+    EXPECT_LE(wrongShare(both(s.scene, {}, 4, "filters by Fresnel"), kGraded), 2 * kWrong);
+}
+
+TEST(SpecularScene, TooManyFiltersOnAPathAreReported) {
+    SceneDescription scene = test::hallOfMirrors();
+    for (SceneMaterial& m : scene.materials)
+        if (m.specular) m.specular->filter = std::make_shared<Image>(1, 1, 4);
+    scene.nodes[1].rotation = glm::angleAxis(kPi, Vec3(0, 1, 0));  // parallel
+    const auto faces = specularFaces(scene, nodeTransforms(scene, 0));
+    const ScheduleInput input{scene.camera, 64, 64, Vec3(-5), Vec3(5), {}};
+    SpecularOptions options;
+    options.depth = kMostFilters;
+    EXPECT_NO_THROW(makeSchedule(faces, input, options));
+    options.depth = kMostFilters + 1;
+    EXPECT_THROW(makeSchedule(faces, input, options), Error);
+}
+
 /// 32 shears against thousands of rays of the same distribution.
 TEST(SpecularScene, FrostedGlassAndGlossyMirrors) {
     SceneDescription frosted = test::paneScene(1, false, 0.3);

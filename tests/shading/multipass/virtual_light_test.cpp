@@ -4,6 +4,9 @@
 #include <gtest/gtest.h>
 
 #include "core/error.hpp"
+#include "core/fresnel.hpp"
+#include "core/sampling.hpp"
+#include "reference/scattered_light.hpp"
 #include "tests/shading/multipass/specular_fixture.hpp"
 
 namespace nacre {
@@ -14,9 +17,13 @@ struct Found {
     std::vector<VirtualLight> lights;
 };
 
-Found find(const SceneDescription& scene, const Light& light, int depth, std::size_t most = 1000) {
+Found find(const SceneDescription& scene, const Light& light, int depth, std::size_t most = 100000, int shears = 32) {
     Found out{specularFaces(scene, nodeTransforms(scene, 0)), {}};
-    out.lights = virtualLights(out.faces, sendingFaces(scene, out.faces), light, depth, most);
+    SpecularOptions options;
+    options.lightDepth = depth;
+    options.most = most;
+    options.shears = shears;
+    out.lights = virtualLights(out.faces, sendingFaces(scene, out.faces), light, options);
     return out;
 }
 
@@ -54,16 +61,67 @@ TEST(VirtualLight, BeamsThatMissAFaceEndThere) {
     EXPECT_EQ(paths({-0.5, 4, 0}), 2u) << "what the floor reflects goes over the wall";
 }
 
-TEST(VirtualLight, FacesThatDontBlockOrSpreadSendNothing) {
+TEST(VirtualLight, FacesThatDontBlockSendNothing) {
     test::SpecularScene s;
-    SceneSpecular frosted;
-    frosted.spread = 0.1;
-    s.face("frosted", frosted, {0, 0, 0});
+    s.face("second", {}, {0, 0, 0}).castsShadow = false;
     s.face("open", {}, {0, 0, 1}).castsShadow = false;
     EXPECT_TRUE(find(s.scene, lampAt({0, 0, 2}), 2).lights.empty());
     s.scene.nodes[1].scale = Vec3(1, 0, 1);  // and none has a degenerate one
     s.scene.nodes[1].castsShadow = true;
     EXPECT_TRUE(find(s.scene, lampAt({0, 0, 2}), 2).lights.empty());
+}
+
+/// Sums over the images of a frosted face against points of the face: where all are exact, and with facets far away.
+TEST(VirtualLight, ScatteringFacesHaveManyImages) {
+    SceneSpecular frosted, glossy, rough;
+    frosted.ior = 1, frosted.spread = 0.15;
+    glossy.spread = 0.15, glossy.reflection = Rgb(0.5);
+    rough.ior = 1.5, rough.roughness = 0.15;
+    const Light lamp{false, {0.2, 0.1, 2}, Rgb(3), {}}, far{false, {6, 3, 30}, Rgb(2000), {}};
+    for (const auto& [specular, light, z, off] :
+         {std::tuple{frosted, lamp, -1.0, 0.02}, {glossy, lamp, 1.0, 0.02}, {rough, far, -1.0, 0.04}}) {
+        test::SpecularScene s;
+        s.face("face", specular, {0, 0, 0}, 0.1, {0, 1, 0}, Vec3(0.6));
+        s.square(Rgb(0), {0.8, 0, 0.5 * z}, 0, {0, 1, 0}, Vec3(0.5));
+        const std::vector<glm::dmat4> nodes = nodeTransforms(s.scene, 0);
+        const SceneRays rays(s.scene, nodes);
+        const ScatteredLight truth(s.scene, nodes, rays);
+        const Found found = find(s.scene, light, 1, 100000, 4096);
+        EXPECT_GE(found.lights.size(), 4096u);
+        double open = 0;  // at the first of them
+        for (const Vec3& point : {Vec3(0.1, 0, z), Vec3(0.5, -0.4, z), Vec3(-0.6, 0.7, 1.3 * z)}) {
+            double ours = 0, want = 0;
+            std::uint64_t i = 0;
+            truth.follow(
+                light, point, true, 300000,
+                [&] {
+                    ++i;
+                    return Vec2(radicalInverse(i, 2), radicalInverse(i, 3));
+                },
+                [&](const LightArrival& a) { want += a.irradiance.r; });
+            for (const VirtualLight& image : found.lights) {
+                const LightBounce bounce = image.bounces[0];
+                const Vec3 to = image.seen.position - point, d = glm::normalize(to);
+                const Vec3 p = point - glm::dot(found.faces[0].plane, Vec4(point, 1)) /
+                                           glm::dot(Vec3(found.faces[0].plane), to) * to;
+                const Vec3 local = glm::inverse(nodes[0]) * Vec4(p, 1);
+                const bool ahead = glm::dot(image.stages[1].within[0], Vec4(point, 1)) > 0;
+                if (!ahead || std::abs(local.x) > 1 || std::abs(local.y) > 1) continue;
+                if (rays.shadowed(point, glm::normalize(p - point), glm::length(p - point))) continue;
+                const double stretch = glm::length(image.toLamp * d);
+                double share = 1 / (stretch * stretch * stretch);
+                for (const WeighedBounce& w : image.weighed) {
+                    const Vec3 before = glm::normalize(w.turn * d);
+                    const double reflected = fresnelDielectric(std::abs(glm::dot(before, w.normal)), std::abs(w.index));
+                    share *= w.index < 0 ? reflected : 1 - reflected;
+                }
+                EXPECT_EQ(bounce.face, 0);
+                ours += share * image.seen.color.r / glm::dot(to, to);
+            }
+            if (open == 0) open = want;
+            EXPECT_NEAR(ours / open, want / open, off) << z << " " << point.x;
+        }
+    }
 }
 
 /// Every straight way from the light to the face goes on straight from its image.
