@@ -88,12 +88,12 @@ bool binarySwap(ProgramLoader& loader, PipeLink& link, std::span<const int> pipe
     ImageRows rows{0, targets[0]->height()};
     if (index >= whole) {
         const std::vector<float> mine = readRows(targets, rows);
-        return link.exchange(pipe(index - whole), PipeWay::Image, bytesOf(mine), {}, deadline);
+        return link.exchange(pipe(index - whole), PipeWay::Image, bytesIn(mine), {}, deadline);
     }
     bool good = true;
     const auto add = [&](int partner, ImageRows kept, const std::vector<float>& given) {
         std::vector<float> theirs(targets.size() * floatsIn(targets, kept));
-        const bool there = link.exchange(pipe(partner), PipeWay::Image, bytesOf(given), roomOf(theirs), deadline);
+        const bool there = link.exchange(pipe(partner), PipeWay::Image, bytesIn(given), roomIn(theirs), deadline);
         if (there) addRows(loader, targets, kept, theirs);
         good = good && there;
     };

@@ -42,7 +42,7 @@ struct HybridReport {
     TracedReport traced{};
     std::vector<PassTime> stages;  ///< wall seconds between two glFinish; gpuSeconds isn't measured
     double shadowSeconds = 0;      ///< of the direct stage: making and counting volumes, and the light outside them
-    std::vector<double> pipes;     ///< seconds that each drew; below 0: it isn't in the picture
+    std::vector<double> pipes;     ///< seconds that each drew; below 0: its part is lacking; NaN: it had none
 };
 
 /// Images of three channels, the size that was asked for. What wasn't asked for is black.

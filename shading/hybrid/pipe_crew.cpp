@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <limits>
 
 #include "core/error.hpp"
 
@@ -29,7 +30,7 @@ PipeCrew::~PipeCrew() {
     if (!leads()) return;
     const Order last;
     for (const int pipe : members())
-        if (pipe != 0) link_.exchange(pipe, PipeWay::Order, bytesOf(last), {}, deadline());
+        if (pipe != 0) link_.exchange(pipe, PipeWay::Order, bytesIn(last), {}, deadline());
 }
 
 std::vector<int> PipeCrew::members() const {
@@ -67,12 +68,12 @@ std::vector<std::string> PipeCrew::takeNotes() {
 void PipeCrew::begin(double time) {
     order_ = {present_, time, order_.frame + 1};
     for (const int pipe : members())
-        if (pipe != 0 && !link_.exchange(pipe, PipeWay::Order, bytesOf(order_), {}, deadline()))
+        if (pipe != 0 && !link_.exchange(pipe, PipeWay::Order, bytesIn(order_), {}, deadline()))
             lose(pipe, "at its start");
 }
 
 std::optional<double> PipeCrew::await() {
-    if (!link_.exchange(0, PipeWay::Order, {}, roomOf(order_), kNever))
+    if (!link_.exchange(0, PipeWay::Order, {}, roomIn(order_), kNever))
         throw Error(fmt::format("pipe {}: expected a frame to draw, found the first pipe gone", link_.self()));
     if (order_.pipes == 0) return {};
     return order_.time;
@@ -87,7 +88,7 @@ void PipeCrew::gather(std::vector<ElementPower>& sources, std::size_t elements) 
     };
     if (!leads()) {
         for (const std::size_t i : sharedBy(share().part))
-            link_.exchange(0, PipeWay::Order, bytesOf(sources[i]), {}, kNever);
+            link_.exchange(0, PipeWay::Order, bytesIn(sources[i]), {}, kNever);
         return;
     }
     int part = 0;
@@ -98,7 +99,7 @@ void PipeCrew::gather(std::vector<ElementPower>& sources, std::size_t elements) 
         for (const std::size_t i : sharedBy(part)) {
             if (!(present_ & bitOf(pipe))) break;
             sources[i].resize(elements);
-            if (link_.exchange(pipe, PipeWay::Order, {}, roomOf(sources[i]), until)) continue;
+            if (link_.exchange(pipe, PipeWay::Order, {}, roomIn(sources[i]), until)) continue;
             sources[i].clear();
             lose(pipe, "with what it found to reflect light");
         }
@@ -108,36 +109,44 @@ void PipeCrew::gather(std::vector<ElementPower>& sources, std::size_t elements) 
 void PipeCrew::spread(VirtualLights& lights) {
     std::uint64_t count = lights.lights.size();
     if (!leads()) {
-        link_.exchange(0, PipeWay::Order, {}, roomOf(count), kNever);
+        link_.exchange(0, PipeWay::Order, {}, roomIn(count), kNever);
         lights.lights.resize(count);
-        link_.exchange(0, PipeWay::Order, {}, roomOf(lights.lights), kNever);
+        link_.exchange(0, PipeWay::Order, {}, roomIn(lights.lights), kNever);
         return;
     }
     for (const int pipe : members())
-        if (pipe != 0 && !(link_.exchange(pipe, PipeWay::Order, bytesOf(count), {}, deadline()) &&
-                           link_.exchange(pipe, PipeWay::Order, bytesOf(lights.lights), {}, deadline())))
+        if (pipe != 0 && !(link_.exchange(pipe, PipeWay::Order, bytesIn(count), {}, deadline()) &&
+                           link_.exchange(pipe, PipeWay::Order, bytesIn(lights.lights), {}, deadline())))
             lose(pipe, "before its virtual lights");
+}
+
+/// Of each pipe, as long as nothing has come from it.
+std::vector<double> PipeCrew::secondsBefore() const {
+    std::vector<double> out;
+    for (int pipe = 0; pipe < link_.count(); ++pipe)
+        out.push_back(order_.pipes & bitOf(pipe) ? -1 : std::numeric_limits<double>::quiet_NaN());
+    return out;
 }
 
 /// Who is done drawing, and in what time: the leader then tells all who take part in the swap.
 std::vector<double> PipeCrew::rollCall(double seconds) {
-    std::vector<double> out(static_cast<std::size_t>(link_.count()), -1);
+    std::vector<double> out = secondsBefore();
     out[static_cast<std::size_t>(link_.self())] = seconds;
     if (!leads()) {
-        link_.exchange(0, PipeWay::Image, bytesOf(seconds), {}, kNever);
-        link_.exchange(0, PipeWay::Image, {}, roomOf(order_.pipes), kNever);
+        link_.exchange(0, PipeWay::Image, bytesIn(seconds), {}, kNever);
+        link_.exchange(0, PipeWay::Image, {}, roomIn(order_.pipes), kNever);
         return out;
     }
     const PipeClock::time_point until = deadline();
     for (const int pipe : members()) {
         double& theirs = out[static_cast<std::size_t>(pipe)];
-        if (pipe == 0 || link_.exchange(pipe, PipeWay::Image, {}, roomOf(theirs), until)) continue;
+        if (pipe == 0 || link_.exchange(pipe, PipeWay::Image, {}, roomIn(theirs), until)) continue;
         theirs = -1;
         lose(pipe, "drawing");
     }
     order_.pipes = present_;
     for (const int pipe : members())
-        if (pipe != 0) link_.exchange(pipe, PipeWay::Image, bytesOf(order_.pipes), {}, deadline());
+        if (pipe != 0) link_.exchange(pipe, PipeWay::Image, bytesIn(order_.pipes), {}, deadline());
     return out;
 }
 
@@ -155,8 +164,8 @@ bool PipeCrew::collectRows(std::span<const RenderTarget* const> targets, bool go
         std::uint8_t theirs = good;
         if (i == 0)
             pixels = readRows(targets, rows);
-        else if (!link_.exchange(pipes[i], PipeWay::Image, {}, roomOf(theirs), deadline(2)) ||  // it waited itself
-                 !link_.exchange(pipes[i], PipeWay::Image, {}, roomOf(pixels), deadline()))
+        else if (!link_.exchange(pipes[i], PipeWay::Image, {}, roomIn(theirs), deadline(2)) ||  // it waited itself
+                 !link_.exchange(pipes[i], PipeWay::Image, {}, roomIn(pixels), deadline()))
             lose(pipes[i], kTogether);
         if (!theirs) without.push_back(pipes[i]);
         for (std::size_t t = 0; t < targets.size(); ++t)
@@ -186,31 +195,28 @@ CompositedFrame PipeCrew::compositeSwapped(ProgramLoader& loader, std::span<cons
         verdict = order_ = {present_, order_.time, order_.frame};
         verdict.frame = again;
         for (const int pipe : members())
-            if (pipe != 0) link_.exchange(pipe, PipeWay::Image, bytesOf(verdict), {}, deadline());
+            if (pipe != 0) link_.exchange(pipe, PipeWay::Image, bytesIn(verdict), {}, deadline());
         return out;
     }
     const auto index = static_cast<int>(std::find(pipes.begin(), pipes.end(), link_.self()) - pipes.begin());
     const ImageRows rows = rowsAfterSwap(targets[0]->height(), index, static_cast<int>(pipes.size()));
-    link_.exchange(0, PipeWay::Image, bytesOf(good), {}, kNever);
-    link_.exchange(0, PipeWay::Image, bytesOf(readRows(targets, rows)), {}, kNever);
-    again = link_.exchange(0, PipeWay::Image, {}, roomOf(verdict), kNever) && verdict.frame != 0;
+    link_.exchange(0, PipeWay::Image, bytesIn(good), {}, kNever);
+    link_.exchange(0, PipeWay::Image, bytesIn(readRows(targets, rows)), {}, kNever);
+    again = link_.exchange(0, PipeWay::Image, {}, roomIn(verdict), kNever) && verdict.frame != 0;
     if (again) order_.pipes = verdict.pipes;
     return out;
 }
 
-CompositedFrame PipeCrew::addInSoftware(std::vector<float> mine, std::size_t targets, int width, int height,
-                                        double seconds, const std::vector<int>& pipes, std::uint64_t frame) {
-    CompositedFrame out;
-    out.drawSeconds.assign(static_cast<std::size_t>(link_.count()), -1);
-    out.drawSeconds[0] = seconds;
+CompositedFrame PipeCrew::addInSoftware(CompositedFrame out, std::vector<float> mine, std::size_t targets, int width,
+                                        int height, const std::vector<int>& pipes, std::uint64_t frame) {
     std::vector<std::vector<float>> images;
     const PipeClock::time_point until = deadline();
     for (const int pipe : pipes) {
         if (pipe == 0) continue;
         double& theirs = out.drawSeconds[static_cast<std::size_t>(pipe)];
         std::vector<float> image(mine.size());
-        if (link_.exchange(pipe, PipeWay::Image, {}, roomOf(theirs), until) &&
-            link_.exchange(pipe, PipeWay::Image, {}, roomOf(image), until)) {
+        if (link_.exchange(pipe, PipeWay::Image, {}, roomIn(theirs), until) &&
+            link_.exchange(pipe, PipeWay::Image, {}, roomIn(image), until)) {
             images.push_back(std::move(image));
             continue;
         }
@@ -235,13 +241,15 @@ std::function<CompositedFrame()> PipeCrew::composite(ProgramLoader& loader,
     const int width = targets[0]->width(), height = targets[0]->height();
     std::vector<float> mine = readRows(targets, {0, height});
     if (!leads()) {
-        link_.exchange(0, PipeWay::Image, bytesOf(seconds), {}, kNever);
-        link_.exchange(0, PipeWay::Image, bytesOf(mine), {}, kNever);
+        link_.exchange(0, PipeWay::Image, bytesIn(seconds), {}, kNever);
+        link_.exchange(0, PipeWay::Image, bytesIn(mine), {}, kNever);
         return {};
     }
-    return [this, mine = std::move(mine), count = targets.size(), width, height, seconds, pipes = members(),
-            frame = order_.frame]() mutable {
-        return addInSoftware(std::move(mine), count, width, height, seconds, pipes, frame);
+    CompositedFrame out{{}, secondsBefore()};
+    out.drawSeconds[0] = seconds;
+    return [this, out = std::move(out), mine = std::move(mine), count = targets.size(), width, height,
+            pipes = members(), frame = order_.frame]() mutable {
+        return addInSoftware(std::move(out), std::move(mine), count, width, height, pipes, frame);
     };
 }
 

@@ -30,7 +30,7 @@ struct CrewOptions {
 /// A frame's images as the first pipe has them in the end.
 struct CompositedFrame {
     std::vector<Image> images;        ///< four channels, one a target; none: draw again, with the new share
-    std::vector<double> drawSeconds;  ///< a pipe; below 0: it isn't in the images
+    std::vector<double> drawSeconds;  ///< a pipe; below 0: the images lack its part; NaN: it had none
 };
 
 /// One pipe's part in it. The first pipe leads: it says which frame is drawn and shows it. A pipe that is gone, or
@@ -81,10 +81,11 @@ private:
     void lose(int pipe, const char* doing) { lose(pipe, doing, order_.frame); }
     CompositedFrame compositeSwapped(ProgramLoader& loader, std::span<const RenderTarget* const> targets,
                                      double seconds, bool& again);
+    std::vector<double> secondsBefore() const;
     std::vector<double> rollCall(double seconds);
     bool collectRows(std::span<const RenderTarget* const> targets, bool good, std::vector<Image>& images);
-    CompositedFrame addInSoftware(std::vector<float> mine, std::size_t targets, int width, int height, double seconds,
-                                  const std::vector<int>& pipes, std::uint64_t frame);
+    CompositedFrame addInSoftware(CompositedFrame out, std::vector<float> mine, std::size_t targets, int width,
+                                  int height, const std::vector<int>& pipes, std::uint64_t frame);
 
     PipeLink& link_;
     CrewOptions options_;

@@ -51,19 +51,19 @@ std::vector<std::vector<int>> connectedSockets(int pipes);
 
 /// Bytes of a value or of a list of them.
 template <class T>
-std::span<const std::byte> bytesOf(const T& value) {
+std::span<const std::byte> bytesIn(const T& value) {
     return std::as_bytes(std::span(&value, 1));
 }
 template <class T>
-std::span<const std::byte> bytesOf(const std::vector<T>& list) {
+std::span<const std::byte> bytesIn(const std::vector<T>& list) {
     return std::as_bytes(std::span(list));
 }
 template <class T>
-std::span<std::byte> roomOf(T& value) {
+std::span<std::byte> roomIn(T& value) {
     return std::as_writable_bytes(std::span(&value, 1));
 }
 template <class T>
-std::span<std::byte> roomOf(std::vector<T>& list) {
+std::span<std::byte> roomIn(std::vector<T>& list) {
     return std::as_writable_bytes(std::span(list));
 }
 
