@@ -26,7 +26,8 @@ namespace fs = std::filesystem;
 struct Arguments {
     std::string out = "build/bench", shared;
     std::vector<int> sourceSizes;
-    std::vector<std::string> materials, techniques = {"factored", "environment", "bump", "shadow", "transfer"};
+    std::vector<std::string> materials,
+        techniques = {"factored", "environment", "bump", "shadow", "transfer", "hybrid"};
     bool quick = false, barsOnly = false, noBars = false, noGpu = false, quiet = false, list = false;
 };
 
@@ -191,6 +192,16 @@ void runTransfer(const Arguments& arguments, const Progress& progress, Report& r
     if (!arguments.barsOnly) report.transfers = sweepTransfer(list.meshes, options);
 }
 
+void runHybrid(const Arguments& arguments, const Progress& progress, Report& report) {
+    std::optional<HeadlessGpu> gpu = openGpu<HeadlessGpu>(arguments, report.notes);
+    const HybridSweepOptions options{arguments.quick, gpu ? &gpu->loader : nullptr, progress};
+    if (!arguments.noBars) {
+        const std::vector<Bar> bars = measureHybridBars(options);
+        report.bars.insert(report.bars.end(), bars.begin(), bars.end());
+    }
+    if (!arguments.barsOnly) report.hybrid = sweepHybrid(options);
+}
+
 int run(const Arguments& arguments) {
     const auto start = std::chrono::steady_clock::now();
     const Progress progress = progressOn(arguments.quiet);
@@ -214,6 +225,7 @@ int run(const Arguments& arguments) {
     if (wants(arguments, "bump")) runBump(arguments, progress, report);
     if (wants(arguments, "shadow")) runShadow(arguments, progress, report);
     if (wants(arguments, "transfer")) runTransfer(arguments, progress, report);
+    if (wants(arguments, "hybrid")) runHybrid(arguments, progress, report);
     report.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     if (!arguments.quiet && isatty(2) != 0) fmt::print(stderr, "\r\033[K");
     fmt::print("{}", barTable(report.bars));
@@ -235,13 +247,14 @@ int main(int argc, char** argv) {
     arguments.shared = nacre::bench::defaultShared();
     CLI::App app(
         "Measures error and cost of every factorization, of prefiltered environments, of reliefs, of "
-        "shadows and of transfer; writes "
+        "shadows, of transfer and of hybrid rendering; writes "
         "report.json and index.html.");
     app.add_option("--out", arguments.out, "folder to write")->capture_default_str();
     app.add_option("--shared", arguments.shared, "folder with data/brdf and tools, for measured materials")
         ->capture_default_str();
-    app.add_option("--techniques", arguments.techniques, "only these: factored, environment, bump, shadow, transfer")
-        ->check(CLI::IsMember({"factored", "environment", "bump", "shadow", "transfer"}));
+    app.add_option("--techniques", arguments.techniques,
+                   "only these: factored, environment, bump, shadow, transfer, hybrid")
+        ->check(CLI::IsMember({"factored", "environment", "bump", "shadow", "transfer", "hybrid"}));
     app.add_option("--source-sizes", arguments.sourceSizes, "of the environments' curves: edges of the source cube")
         ->check(CLI::IsMember({32, 64, 128, 256, 512, 1024, 2048}));
     app.add_option("--materials", arguments.materials, "only these (names as --list prints them)");

@@ -8,6 +8,7 @@
 #include "bench/bars.hpp"
 #include "bench/bump_sweep.hpp"
 #include "bench/environment_sweep.hpp"
+#include "bench/hybrid_sweep.hpp"
 #include "bench/shadow_sweep.hpp"
 #include "bench/sweep.hpp"
 #include "bench/transfer_sweep.hpp"
@@ -25,6 +26,7 @@ struct Report {
     std::vector<BumpMeasurement> bumps;
     std::vector<ShadowMeasurement> shadows;
     std::vector<TransferMeasurement> transfers;
+    HybridSweep hybrid;
 };
 
 /// Numbers that aren't finite become the strings "inf", "-inf" and "nan".
