@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <cmath>
 #include <limits>
 
 #include "core/error.hpp"
@@ -24,6 +25,8 @@ PipeCrew::PipeCrew(PipeLink& link, const CrewOptions& options) : link_(link), op
     require(options.patience > 0, "pipes: expected a patience > 0");
     present_ = ~std::uint64_t(0) >> (64 - link.count());
     order_.pipes = present_;
+    weights_.fill(1);
+    cut();
 }
 
 PipeCrew::~PipeCrew() {
@@ -43,9 +46,35 @@ std::vector<int> PipeCrew::members() const {
 
 int PipeCrew::present() const { return static_cast<int>(members().size()); }
 
-/// By the order, which doesn't change within a frame.
-DrawShare PipeCrew::share() const {
-    return {std::popcount(order_.pipes & (bitOf(link_.self()) - 1)), std::popcount(order_.pipes)};
+DrawShare PipeCrew::share(int pipe) const {
+    const auto at = static_cast<std::size_t>(pipe);
+    return {order_.cuts[at], order_.cuts[at + 1]};
+}
+
+/// Shares of those that are there, by their weights. The leader's begins at 0.
+void PipeCrew::cut() {
+    const std::lock_guard lock(mutex_);
+    double sum = 0;
+    for (const int pipe : members()) sum += weights_[static_cast<std::size_t>(pipe)];
+    double until = 0;
+    for (int pipe = 0; pipe < link_.count(); ++pipe) {
+        const auto at = static_cast<std::size_t>(pipe);
+        if (order_.pipes & bitOf(pipe)) until += weights_[at] / sum;
+        order_.cuts[at + 1] = until;
+    }
+    for (std::size_t at = order_.cuts.size(); at-- > 1 && order_.cuts[at] == until;) order_.cuts[at] = 1;  // rounding
+}
+
+/// Where all take the same time, nothing changes. Half of the way, as samples are few and times vary.
+void PipeCrew::learn(const std::vector<double>& seconds) {
+    double sum = 0;
+    int count = 0;
+    for (const double s : seconds)
+        if (s > 0) sum += s, ++count;
+    if (count < 2) return;
+    const std::lock_guard lock(mutex_);
+    for (std::size_t i = 0; i < seconds.size(); ++i)
+        if (seconds[i] > 0) weights_[i] = std::clamp(weights_[i] * std::sqrt(sum / count / seconds[i]), 0.2, 5.0);
 }
 
 PipeClock::time_point PipeCrew::deadline(double times) const {
@@ -66,7 +95,8 @@ std::vector<std::string> PipeCrew::takeNotes() {
 }
 
 void PipeCrew::begin(double time) {
-    order_ = {present_, time, order_.frame + 1};
+    order_.pipes = present_, order_.time = time, ++order_.frame;
+    cut();
     for (const int pipe : members())
         if (pipe != 0 && !link_.exchange(pipe, PipeWay::Order, bytesIn(order_), {}, deadline()))
             lose(pipe, "at its start");
@@ -80,28 +110,25 @@ std::optional<double> PipeCrew::await() {
 }
 
 void PipeCrew::gather(std::vector<ElementPower>& sources, std::size_t elements) {
-    const auto sharedBy = [&](int part) {
+    const auto sharedBy = [&](int pipe) {
         std::vector<std::size_t> out;
         for (std::size_t i = 0; i < sources.size() && elements > 0; ++i)
-            if (DrawShare{part, share().parts}.takes(i)) out.push_back(i);
+            if (share(pipe).takes(i)) out.push_back(i);
         return out;
     };
     if (!leads()) {
-        for (const std::size_t i : sharedBy(share().part))
+        for (const std::size_t i : sharedBy(link_.self()))
             link_.exchange(0, PipeWay::Order, bytesIn(sources[i]), {}, kNever);
         return;
     }
-    int part = 0;
-    for (int pipe = 1; pipe < link_.count(); ++pipe) {
-        if (!(order_.pipes & bitOf(pipe))) continue;
-        ++part;
+    for (const int pipe : members()) {
         const PipeClock::time_point until = deadline();
-        for (const std::size_t i : sharedBy(part)) {
-            if (!(present_ & bitOf(pipe))) break;
+        for (const std::size_t i : pipe == 0 ? std::vector<std::size_t>() : sharedBy(pipe)) {
             sources[i].resize(elements);
             if (link_.exchange(pipe, PipeWay::Order, {}, roomIn(sources[i]), until)) continue;
             sources[i].clear();
             lose(pipe, "with what it found to reflect light");
+            break;
         }
     }
 }
@@ -144,6 +171,7 @@ std::vector<double> PipeCrew::rollCall(double seconds) {
         theirs = -1;
         lose(pipe, "drawing");
     }
+    learn(out);
     order_.pipes = present_;
     for (const int pipe : members())
         if (pipe != 0) link_.exchange(pipe, PipeWay::Image, bytesIn(order_.pipes), {}, deadline());
@@ -192,7 +220,8 @@ CompositedFrame PipeCrew::compositeSwapped(ProgramLoader& loader, std::span<cons
     Order verdict;
     if (leads()) {
         again = !collectRows(targets, good, out.images);
-        verdict = order_ = {present_, order_.time, order_.frame};
+        if (again) order_.pipes = present_, cut();
+        verdict = order_;
         verdict.frame = again;
         for (const int pipe : members())
             if (pipe != 0) link_.exchange(pipe, PipeWay::Image, bytesIn(verdict), {}, deadline());
@@ -203,7 +232,7 @@ CompositedFrame PipeCrew::compositeSwapped(ProgramLoader& loader, std::span<cons
     link_.exchange(0, PipeWay::Image, bytesIn(good), {}, kNever);
     link_.exchange(0, PipeWay::Image, bytesIn(readRows(targets, rows)), {}, kNever);
     again = link_.exchange(0, PipeWay::Image, {}, roomIn(verdict), kNever) && verdict.frame != 0;
-    if (again) order_.pipes = verdict.pipes;
+    if (again) order_.pipes = verdict.pipes, order_.cuts = verdict.cuts;
     return out;
 }
 
@@ -223,6 +252,7 @@ CompositedFrame PipeCrew::addInSoftware(CompositedFrame out, std::vector<float> 
         theirs = -1;
         lose(pipe, "drawing", frame);
     }
+    learn(out.drawSeconds);
     addImages(mine, images);
     const std::size_t size = mine.size() / targets;
     for (std::size_t t = 0; t < targets; ++t)

@@ -2,6 +2,7 @@
 // together.
 #pragma once
 
+#include <array>
 #include <atomic>
 #include <cstdint>
 #include <functional>
@@ -35,7 +36,8 @@ struct CompositedFrame {
 
 /// One pipe's part in it. The first pipe leads: it says which frame is drawn and shows it. A pipe that is gone, or
 /// answers later than the leader's patience, is left out of that frame, which then lacks what the pipe would have
-/// drawn, and of all later ones, which the others share. Pipes beyond the samples draw nothing.
+/// drawn, and of all later ones, which the others share. Cores aren't equally fast: shares follow the time that pipes
+/// took. Pipes beyond the samples draw nothing.
 class PipeCrew {
 public:
     /// \param link  outlives this \throws std::invalid_argument for more than kMostPipes, patience ≤ 0
@@ -48,7 +50,9 @@ public:
     bool leads() const { return link_.self() == 0; }
     const CrewOptions& options() const { return options_; }
     int present() const;  ///< pipes that still take part
-    DrawShare share() const;
+    /// Of the frame that was begun last: as large as lets all be done at once, going by the frames before.
+    DrawShare share(int pipe) const;
+    DrawShare share() const { return share(link_.self()); }
 
     /// The leader's: a frame at `time` begins.
     void begin(double time);
@@ -74,7 +78,10 @@ private:
         std::uint64_t pipes = 0;  ///< a bit each, that take part; 0: no more frames
         double time = 0;
         std::uint64_t frame = 0;
+        std::array<double, kMostPipes + 1> cuts{};  ///< of the shares; pipes that are gone have none
     };
+    void cut();
+    void learn(const std::vector<double>& seconds);
     std::vector<int> members() const;
     PipeClock::time_point deadline(double times = 1) const;
     void lose(int pipe, const char* doing, std::uint64_t frame);
@@ -91,8 +98,9 @@ private:
     CrewOptions options_;
     Order order_;
     std::atomic<std::uint64_t> present_;
-    std::mutex mutex_;
+    std::mutex mutex_;  ///< of what frames' ends write, in other threads
     std::vector<std::string> notes_;
+    std::array<double, kMostPipes> weights_;  ///< of the shares to come
 };
 
 }  // namespace nacre

@@ -126,7 +126,7 @@ HybridPicture drawnByOne(const SceneDescription& scene, const Setting& s, const 
     HybridRenderer renderer(loader, scene, materialsOf(scene));
     prepare(renderer, s);
     HybridPicture out = renderer.draw(kSize, kSize, s.options);
-    if (shares.size() == 1 && shares[0].parts == 1) return out;
+    if (shares.size() == 1 && shares[0].end == 1) return out;
     std::fill(out.direct.data().begin(), out.direct.data().end(), 0.0f);
     const RenderTarget target({.width = kSize, .height = kSize});
     for (const DrawShare& share : shares) {
@@ -208,7 +208,7 @@ TEST(Pipes, ShadowMapsAreTheFirstPipes) {
     ProgramLoader loader;
     SceneRenderer renderer(loader, scene);
     const RenderTarget target({.width = kSize, .height = kSize});
-    renderer.switches.share = {1, 2};
+    renderer.switches.share = DrawShare::equal(1, 2);
     renderer.render(target);
     EXPECT_EQ(brightest(target.read()), 0);
 }
@@ -219,10 +219,11 @@ void expectLeftOut(Pipes& pipes, const SceneDescription& scene, const Setting& s
     expectSame(pipes.frame().picture, one, "before");
     EXPECT_THAT(pipes.crew().takeNotes(), ElementsAre());
     const HybridFrame lacking = pipes.frame();
+    const std::vector<DrawShare> shares{pipes.crew().share(0), pipes.crew().share(1)};
     EXPECT_THAT(pipes.crew().takeNotes(), ElementsAre(HasSubstr(doing)));
     EXPECT_LT(lacking.report.pipes[2], 0);
     EXPECT_GT(lacking.report.pipes[1], 0);
-    EXPECT_LT(difference(lacking.picture.direct, drawnByOne(scene, s, {{0, 3}, {1, 3}}).direct), kOrder);
+    EXPECT_LT(difference(lacking.picture.direct, drawnByOne(scene, s, shares).direct), kOrder);
     EXPECT_GT(difference(lacking.picture.direct, one.direct), 0.01);
     EXPECT_EQ(pipes.crew().present(), 2);
     expectSame(pipes.frame().picture, one, "after");
@@ -307,6 +308,38 @@ TEST(Pipes, AFrameOfLatencyIsTheSameFrame) {
         before = std::move(next);
     }
     before.get();
+}
+
+TEST(Pipes, SharesTakeEachThingOnceAndAreEven) {
+    for (const int parts : {1, 2, 3, 5, 8})
+        for (const std::size_t things : {4u, 16u, 64u}) {
+            std::vector<int> taken(things, 0);
+            for (int part = 0; part < parts; ++part) {
+                int own = 0;
+                for (std::size_t i = 0; i < things; ++i) {
+                    const bool takes = DrawShare::equal(part, parts).takes(i);
+                    taken[i] += takes, own += takes;
+                }
+                EXPECT_NEAR(own, double(things) / parts, 1.5) << things << " among " << parts;
+            }
+            EXPECT_THAT(taken, testing::Each(1));
+        }
+}
+
+TEST(Pipes, ASlowOneGetsLess) {
+    const SceneDescription scene = room();
+    Setting s;
+    s.lightPoints = 63;
+    s.before = [](int, int) { std::this_thread::sleep_for(std::chrono::milliseconds(1)); };
+    Pipes pipes(scene, s);
+    const double before = pipes.crew().share(1).end - pipes.crew().share(1).begin;
+    EXPECT_NEAR(before, 0.5, 1e-12);
+    std::vector<double> took;
+    for (int i = 0; i < 3; ++i) took = pipes.frame().report.pipes;
+    pipes.crew().begin(0);
+    EXPECT_NE(pipes.crew().share(1).end - pipes.crew().share(1).begin, before) << "no two take the same time";
+    EXPECT_EQ(pipes.crew().share(1).end, 1);
+    EXPECT_EQ(pipes.crew().share(0).begin, 0);
 }
 
 TEST(Pipes, RowsAfterTheSwapCoverEachOnce) {
