@@ -39,11 +39,11 @@ json rendered(const std::string& scene, const std::string& options, const std::s
     return json::parse(text);
 }
 
-/// A scene of shadow volumes above all: 25 rings under a lamp of 16 points, with a few virtual lights.
+/// A scene of shadow volumes above all: 25 rings under a lamp of 32 points, with a few virtual lights.
 PipeMeasurement pipesOnRings(int pipes, const std::string& compositing, const std::string& variables, int frames) {
     const json data = rendered("rings.json",
-                               fmt::format("--shadows volumes --light-points 16 --samples 1 --indirect virtual-lights "
-                                           "--virtual-lights 64 --elements 4096 --specular traced --pipes {} "
+                               fmt::format("--shadows volumes --light-points 32 --samples 1 --indirect virtual-lights "
+                                           "--virtual-lights 8 --elements 1024 --specular traced --pipes {} "
                                            "--compositing {} --repeat {}",
                                            pipes, compositing, frames),
                                variables)["pipes"];
@@ -140,7 +140,7 @@ std::vector<Bar> measureHybridBars(const HybridSweepOptions& options) {
     report(options.progress, "hybrid: stages against rays", 0);
     for (Bar& bar : stageBars(options.quick)) out.push_back(std::move(bar));
     report(options.progress, "hybrid: two pipes against one", 0);
-    const int runs = options.quick ? 1 : 3, frames = options.quick ? 3 : 6;
+    const int runs = options.quick ? 1 : 3, frames = options.quick ? 4 : 8;
     out.push_back(
         measured(core, gain("LP_NUM_THREADS=0", "LP_NUM_THREADS=0", runs, frames), "rasterizer in the pipe's thread"));
     out.push_back(measured(free, gain("", "", runs, frames), "whose rasterizer threads have all cores"));

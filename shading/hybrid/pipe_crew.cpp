@@ -57,12 +57,13 @@ void PipeCrew::cut() {
     double sum = 0;
     for (const int pipe : members()) sum += weights_[static_cast<std::size_t>(pipe)];
     double until = 0;
-    for (int pipe = 0; pipe < link_.count(); ++pipe) {
+    for (int pipe = 0; pipe < kMostPipes; ++pipe) {
         const auto at = static_cast<std::size_t>(pipe);
         if (order_.pipes & bitOf(pipe)) until += weights_[at] / sum;
         order_.cuts[at + 1] = until;
     }
-    for (std::size_t at = order_.cuts.size(); at-- > 1 && order_.cuts[at] == until;) order_.cuts[at] = 1;  // rounding
+    for (double& cut : order_.cuts)
+        if (cut == until) cut = 1;  // but for rounding
 }
 
 /// Where all take the same time, nothing changes. Half of the way, as samples are few and times vary.
