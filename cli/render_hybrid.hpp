@@ -18,9 +18,10 @@ struct HybridPictures {
     int rays = 4;
     SceneSwitches switches;
     bool reference = false, asJson = false;
-    bool indirect = false;  ///< by virtual lights
-    bool traced = false;    ///< specular pixels
-    bool stages = false;    ///< each a picture beside the output
+    bool indirect = false;                       ///< by virtual lights
+    bool traced = false;                         ///< specular pixels
+    std::optional<SampledShadowMethod> shadows;  ///< as levels of each pixel; points: switches.lightPoints
+    bool stages = false;                         ///< each a picture beside the output
     VirtualLightOptions lights;
     std::string dependent;  ///< the first option given that needs --indirect
     PipeSettings pipes;

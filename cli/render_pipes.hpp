@@ -18,7 +18,7 @@ struct PipeSettings {
     bool mpi = false;  ///< pipes are ranks
     CrewOptions crew{};
     bool latency = false;
-    int repeat = 1;
+    int repeat = 0;
     std::string dependent;  ///< the first option given that needs one of the two above
 };
 

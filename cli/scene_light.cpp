@@ -15,7 +15,14 @@ namespace nacre::cli {
 ShadowMethod shadowMethodOf(const std::string& text) {
     if (text == "maps") return ShadowMethod::Maps;
     if (text == "volumes") return ShadowMethod::Volumes;
-    throw UsageError(fmt::format("expected maps or volumes, found '{}'", text));
+    throw UsageError(fmt::format("expected maps, volumes, sampled-maps, sampled-volumes or sampled, found '{}'", text));
+}
+
+std::optional<SampledShadowMethod> sampledShadowsOf(const std::string& text) {
+    if (text == "sampled-maps") return SampledShadowMethod::Maps;
+    if (text == "sampled-volumes") return SampledShadowMethod::Volumes;
+    if (text == "sampled") return SampledShadowMethod::Fastest;
+    return std::nullopt;
 }
 
 SoftShadows softShadowsOf(const std::string& text) {

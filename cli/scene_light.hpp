@@ -4,12 +4,15 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
+#include "shading/hybrid/sampled_shadows.hpp"
 #include "shading/scene_renderer.hpp"
 
 namespace nacre::cli {
 
 /// Words of --shadows, --soft and --quality. \throws UsageError that lists them
 ShadowMethod shadowMethodOf(const std::string& text);
+/// sampled-maps, sampled-volumes, sampled; none for other words
+std::optional<SampledShadowMethod> sampledShadowsOf(const std::string& text);
 SoftShadows softShadowsOf(const std::string& text);
 int qualityOf(const std::string& text);
 

@@ -128,11 +128,13 @@ void runHybrid(const Context& context, const Settings& s, SceneDescription scene
                                       {s.lightPaths.has_value(), "--light-paths"},
                                       {s.quality != 0, "--quality"}})
         if (given)
-            throw UsageError(fmt::format("{}: expected neither --indirect nor --specular traced beside it", flag));
+            throw UsageError(
+                fmt::format("{}: expected none of --indirect, --specular traced and sampled shadows beside it", flag));
     if (!p.traced && hasSpecular(scene))
         throw UsageError(
-            "--indirect: expected --specular traced beside it in a scene with mirrors or panes, found none");
-    p.scene = s.scene, p.output = s.output, p.shot = s.shot, p.white = s.white, p.rays = s.rays,
+            fmt::format("{}: expected --specular traced beside it in a scene with mirrors or panes, found none",
+                        p.indirect ? "--indirect" : "--shadows"));
+    p.scene = s.scene, p.output = s.output, p.shot = s.shot, p.white = s.white, p.rays = s.rays;
     p.switches = s.switches;
     p.reference = s.reference, p.asJson = s.asJson;
     renderHybrid(context, std::move(scene), p);
@@ -144,7 +146,8 @@ void runRender(const Context& context, const Settings& s) {
     if (!s.transferFlag.empty())
         throw UsageError(
             fmt::format("{}: expected a file that nacre transfer wrote, found {}", s.transferFlag, s.scene));
-    if (!s.volumesFlag.empty() && s.switches.shadowMethod != ShadowMethod::Volumes)
+    const bool sampled = s.hybrid.shadows && s.volumesFlag == "--light-points";
+    if (!s.volumesFlag.empty() && !sampled && s.switches.shadowMethod != ShadowMethod::Volumes)
         throw UsageError(s.volumesFlag + ": expected --shadows volumes beside it, found maps");
     checkHybrid(s.hybrid);
     const std::string ending = s.passes ? "" : pictureEnding(s.output);
@@ -156,7 +159,7 @@ void runRender(const Context& context, const Settings& s) {
     SceneDescription scene = readScene(s.scene, reading);
     if (s.passes) {
         if (isHybrid(s.hybrid))
-            throw UsageError("--passes: expected neither --indirect nor --specular traced beside it");
+            throw UsageError("--passes: expected none of --indirect, --specular traced and sampled shadows beside it");
         endProgress();
         return putData(passList(scene, s.shot, atQuality(switchesFor(s, scene), s.quality), s.asJson));
     }
@@ -258,10 +261,16 @@ std::vector<Option> sceneOptions(const std::shared_ptr<Settings>& s) {
          only(s->sceneFlag, "--passes", into(s->passes))},
         {"--rays", "N", "Of a scene's reference: N x N rays a pixel (default 4)",
          only(s->sceneFlag, "--rays", integerInto([s](long long v) { s->rays = static_cast<int>(v); }, 1, 16))},
-        {"--shadows", "METHOD", "Of lights that have shadows: maps (default) or volumes, which are hard and exact",
+        {"--shadows", "METHOD",
+         "Of lights that have shadows: maps (default; areas count as their middle) or volumes, exact to the pixel; or "
+         "of\n"
+         "each pixel before it is lit, smoothed: sampled-maps, sampled-volumes, sampled (the faster one that is right)",
          only(s->sceneFlag, "--shadows",
-              [s](const std::string& text) { s->switches.shadowMethod = shadowMethodOf(text); })},
-        {"--light-points", "N", "With volumes: points of a light's area, 1 to 63 (default 16)",
+              [s](const std::string& text) {
+                  s->hybrid.shadows = sampledShadowsOf(text);
+                  if (!s->hybrid.shadows) s->switches.shadowMethod = shadowMethodOf(text);
+              })},
+        {"--light-points", "N", "Points of a light's area, not with maps: 1 to 63 (default 16)",
          only(s->sceneFlag, "--light-points",
               only(s->volumesFlag, "--light-points",
                    integerInto([s](long long v) { s->switches.lightPoints = static_cast<int>(v); }, 1, 63)))},

@@ -1,6 +1,6 @@
 #!/bin/sh
 # Fetches the gallery's meshes, surroundings, height fields, volumes and animated meshes from Debian packages without
-# installing them, and a rigged hand from npm where npm is:
+# installing them, and a rigged hand and scanned rooms from npm where npm is:
 # demos/fetch.sh [DIR], default build/data. Keeps what is there; exit 1 with one line for each package that can't be had
 # (the gallery then uses its built-in meshes and a made-up sky).
 set -eu
@@ -33,7 +33,7 @@ complain() {
   failed=1
 }
 
-mkdir -p "$data/meshes" "$data/world" "$data/heights" "$data/volumes" "$data/animated/chess"
+mkdir -p "$data/meshes" "$data/world" "$data/heights" "$data/volumes" "$data/animated/chess" "$data/rooms"
 work=$(mktemp -d "$data/fetch.XXXXXX")
 trap 'rm -rf "$work"' EXIT
 chmod 755 "$work" # apt's own user writes here when root downloads
@@ -131,6 +131,23 @@ if [ -n "$wanted" ] && command -v npm >/dev/null; then
     mv "$work/$file" "$data/animated/hand.glb"
   else
     complain "'npm pack @webxr-input-profiles/assets' gave no $file"
+  fi
+fi
+
+# Scanned rooms: 0.3 MB.
+wanted=$(missing rooms .json office_small office_large living_room)
+if [ -n "$wanted" ] && command -v npm >/dev/null; then
+  echo 'demos/fetch.sh: fetching @iwer/sem (0.3 MB) from npm for its scanned rooms' >&2
+  if (cd "$work" && npm pack --silent @iwer/sem@2.4.0 >log 2>&1); then
+    for room in $wanted; do
+      if tar -x -z -C "$work" -f "$work"/iwer-sem-*.tgz "package/captures/$room.json"; then
+        mv "$work/package/captures/$room.json" "$data/rooms/$room.json"
+      else
+        complain "@iwer/sem holds no captures/$room.json"
+      fi
+    done
+  else
+    complain "'npm pack @iwer/sem' failed"
   fi
 fi
 exit $failed

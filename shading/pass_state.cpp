@@ -82,6 +82,12 @@ void setLights(const Program& program, const LitView& view) {
 
 static bool mirrors(const glm::dmat4& toWorld) { return glm::determinant(glm::dmat3(toWorld)) < 0; }
 
+void bindLightLevels(const Program& program, GlName texture) {
+    glActiveTexture(GL_TEXTURE0 + kShadowUnit);
+    glBindTexture(GL_TEXTURE_2D_ARRAY, texture);
+    program.set("nacre_light_levels", kShadowUnit);
+}
+
 void setModel(const Program& program, const glm::dmat4& toWorld) {
     const glm::dmat3 m(toWorld);
     for (int i = 0; i < 4; ++i) require(isFinite(Vec3(toWorld[i])), "drawing a mesh: its matrix must be finite");

@@ -30,6 +30,10 @@ void setLights(const Program& program, const LitView& view);
 /// Texture units after a BRDF's, three maps and a table of a surrounding, and a relief's.
 inline constexpr int kShadowUnit = 13;
 
+/// Uniforms of nacre/bind/light_levels.glsl: an array texture, at kShadowUnit, as there are no maps beside it. Leaves
+/// `program` in use.
+void bindLightLevels(const Program& program, GlName texture);
+
 /// Uniforms of nacre/bind/model.glsl. Leaves `program` in use. \throws std::invalid_argument unless toWorld is finite
 void setModel(const Program& program, const glm::dmat4& toWorld);
 

@@ -7,6 +7,7 @@
 #include <set>
 
 #include "shading/mesh_attributes.hpp"
+#include "shading/room_capture.hpp"
 #include "shading/scene_bounds.hpp"
 #include "shading/scene_import.hpp"
 #include "shading/scene_manifest.hpp"
@@ -58,6 +59,7 @@ public:
         readAnimation();
         if (const auto sky = root_.find("sky")) scene().sky = sceneSky(*sky, names_);
         readCamera();
+        out_.isComplete = true;
         return std::move(out_);
     }
 
@@ -249,6 +251,7 @@ ImportedScene readDocument(const json& document, const fs::path& path, const Sce
     open.push_back(fs::weakly_canonical(path));
     const std::string name = path.string();
     const JsonField root(document, name);
+    if (isRoomCapture(document)) return roomCapture(root, path, options.note);
     return SceneReader(root, path, options, open).read();
 }
 
@@ -257,7 +260,7 @@ ImportedScene readJsonScene(const fs::path& path, const SceneOptions& options, S
 }
 
 /// What a file that is no scene file lacks to be looked at.
-void complete(SceneDescription& scene, const Camera& camera) {
+void complete(SceneDescription& scene, const Camera& camera, const std::optional<SceneLight>& lamp) {
     if (!scene.lights.empty()) return;
     SceneLight key;
     key.name = "key";
@@ -266,12 +269,12 @@ void complete(SceneDescription& scene, const Camera& camera) {
     key.light.position = glm::normalize(0.9 * back - 0.6 * right + 0.8 * glm::cross(back, right));
     key.light.color = Rgb(kPi);  // a white surface that faces it has radiance 1
     key.shadow = SceneShadow{};
-    scene.lights.push_back(key);
+    scene.lights.push_back(lamp.value_or(key));
     for (SceneMaterial& material : scene.materials)
         if (material.ambient == Rgb(0)) material.ambient = Rgb(0.03);
 }
 
-SceneDescription finished(ImportedScene in, const fs::path& path, bool isOurs) {
+SceneDescription finished(ImportedScene in, const fs::path& path) {
     SceneDescription& scene = in.scene;
     scene.file = path;
     markMoving(scene);
@@ -280,19 +283,19 @@ SceneDescription finished(ImportedScene in, const fs::path& path, bool isOurs) {
         scene.camera = cameraSeeing(bounds);
     else if (scene.camera.near == 0 || scene.camera.far == 0)
         scene.camera = withDepth(scene.camera, bounds);
-    if (!isOurs) complete(scene, scene.camera);
+    if (!in.isComplete) complete(scene, scene.camera, in.lamp);
     return std::move(in.scene);
 }
 
 }  // namespace
 
 SceneDescription readScene(const fs::path& path, const SceneOptions& options) {
-    const bool isOurs = path.extension() == ".json";
-    return finished(isOurs ? readJsonScene(path, options, {}) : importScene(path, options.note), path, isOurs);
+    const bool isJson = path.extension() == ".json";
+    return finished(isJson ? readJsonScene(path, options, {}) : importScene(path, options.note), path);
 }
 
 SceneDescription parseScene(std::string_view text, const fs::path& path, const SceneOptions& options) {
-    return finished(readDocument(parseJson(text, path.string()), path, options, {}), path, true);
+    return finished(readDocument(parseJson(text, path.string()), path, options, {}), path);
 }
 
 bool isSceneName(const fs::path& path) { return path.extension() == ".json" || isImportName(path); }

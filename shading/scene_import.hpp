@@ -8,6 +8,8 @@ namespace nacre {
 struct ImportedScene {
     SceneDescription scene;  ///< no assets; a camera when hasCamera
     bool hasCamera = false;
+    std::optional<SceneLight> lamp{};  ///< instead of a key light, for one who looks at the file alone
+    bool isComplete = false;           ///< lights and surroundings are as its author wants them, even if there are none
 };
 
 /// glTF: geometry and key frames through assimp; hierarchy, names, materials, lights and cameras from the file's JSON,

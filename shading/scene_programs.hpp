@@ -11,6 +11,7 @@
 #include "core/draw_share.hpp"
 #include "core/environment.hpp"
 #include "core/scene_description.hpp"
+#include "shading/gl_objects.hpp"
 #include "shading/multipass/specular_options.hpp"
 #include "shading/shader_source.hpp"
 
@@ -22,8 +23,9 @@ namespace nacre {
 enum class SceneReflectance { FactoredOrModel, Direct, FastPhong };
 
 /// How shadows of lights that have a SceneShadow are found. Maps: shading/shadow_map.hpp. Volumes: hard ones, exact to
-/// the pixel (shading/multipass/shadow_volume.hpp), of meshes alone; desktop OpenGL.
-enum class ShadowMethod { Maps, Volumes };
+/// the pixel (shading/multipass/shadow_volume.hpp), of meshes alone; desktop OpenGL. Levels: found already for each
+/// pixel (shading/hybrid/sampled_shadows.hpp), on meshes alone; not in what mirrors and panes show.
+enum class ShadowMethod { Maps, Volumes, Levels };
 
 /// How volumes soften the shadows of lights with an area, by points of it. Regenerated: each point has its own volumes
 /// and its light is added. Pivot: the volumes of the middle, swept from each point (MPR section 4.4: silhouettes stay);
@@ -41,13 +43,14 @@ struct SceneSwitches {
     SoftShadows softShadows = SoftShadows::Regenerated;  ///< with volumes
     int lightPoints = 16;                                ///< of an area, 1 to 63
     DrawShare share{};                                   ///< with volumes, of lamps' points; without, the first has all
-    bool relief = true;                                  ///< bumped normals, and all of a relief's light
-    std::optional<BumpShadow> reliefShadow{};            ///< instead of the materials' own, where the asset has it
-    bool indirect = true;                                ///< bounced light in reliefs
-    bool surrounding = true;                             ///< the environment on surfaces
-    bool sky = true;                                     ///< the environment as background
-    SpecularOptions specular{};                          ///< mirrors and panes; depth 0 shows them black. They send
-                                                         ///< light on with `shadows`, of meshes alone
+    GlName lightLevels = 0;  ///< with Levels: an R32F array texture of the target's size, a layer a light; 0: none
+    bool relief = true;      ///< bumped normals, and all of a relief's light
+    std::optional<BumpShadow> reliefShadow{};  ///< instead of the materials' own, where the asset has it
+    bool indirect = true;                      ///< bounced light in reliefs
+    bool surrounding = true;                   ///< the environment on surfaces
+    bool sky = true;                           ///< the environment as background
+    SpecularOptions specular{};                ///< mirrors and panes; depth 0 shows them black. They send
+                                               ///< light on with `shadows`, of meshes alone
 };
 
 /// What of a baked asset decides about programs.

@@ -228,6 +228,8 @@ struct SceneRenderer::State {
         Frame out{on, camera, nodes, lights};
         out.shadows = shadowsOf(on);
         out.shadowDefines = shadowDefines(out.shadows, lights);
+        if (on.shadows && on.shadowMethod == ShadowMethod::Levels && on.lightLevels != 0)
+            out.shadowDefines.emplace_back("NACRE_LIGHT_LEVELS", "1");
         out.viewDefines = viewDefines(scene);
         return out;
     }
@@ -291,6 +293,8 @@ struct SceneRenderer::State {
                 lit.shadows =
                     shadowed && takesLamps(scene, m, frame.on) ? frame.shadows : std::vector<const ShadowMap*>();
                 bindMaterial(next, draw.node, frame.on, lit);
+                if (shadowed && frame.on.shadowMethod == ShadowMethod::Levels)
+                    bindLightLevels(next, frame.on.lightLevels);
                 if (frame.image) setLightPath(next, *frame.image);
                 setView(next, view.view, view.light, share);
                 if (m.specular && m.specular->texture) {

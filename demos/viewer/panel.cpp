@@ -49,6 +49,16 @@ void viewSection(ViewerSession& session, Comparison& comparison, PanelState& sta
     if (shown != 0) comparisonStatus(comparison);
 }
 
+/// How shadows are found. Levels aren't in what mirrors show.
+bool shadowChoice(SceneSwitches& on, bool mirrors) {
+    int method = static_cast<int>(on.shadowMethod);
+    bool changed = ImGui::Combo(
+        "by", &method, mirrors ? "a map a light\0volumes\0" : "a map a light\0volumes\0a map a point, smoothed\0");
+    on.shadowMethod = static_cast<ShadowMethod>(method);
+    if (on.shadowMethod != ShadowMethod::Maps) changed |= ImGui::SliderInt("points of areas", &on.lightPoints, 1, 63);
+    return changed;
+}
+
 void methodSection(ViewerSession& session) {
     SceneSwitches& on = session.switches;
     int method = static_cast<int>(on.reflectance);
@@ -60,6 +70,7 @@ void methodSection(ViewerSession& session) {
     };
     box("lights", on.lamps, false);
     box("shadows", on.shadows, true);
+    if (on.shadows) changed |= shadowChoice(on, hasSpecular(session.scene()));
     box("bump maps", on.relief, false);
     box("indirect in bumps", on.indirect, true);
     box("surrounding", on.surrounding, false);

@@ -87,12 +87,27 @@ RenderTarget& ViewerSession::sizedTarget() {
     return *target_;
 }
 
+/// Of the lights' shadows, where the switches ask for them.
+void ViewerSession::findLevels(const RenderTarget& target) {
+    SceneSwitches& on = renderer_->switches;
+    if (on.shadowMethod != ShadowMethod::Levels || !on.shadows) return;
+    if (hasSpecular(scene())) {  // levels aren't in what its mirrors show
+        on.shadowMethod = ShadowMethod::Maps;
+        return;
+    }
+    if (!levels_) levels_.emplace(*loader_, renderer_->scene());
+    on.lightLevels =
+        levels_->draw(target.width(), target.height(), camera, time, {SampledShadowMethod::Maps, on.lightPoints});
+}
+
 void ViewerSession::drawOnce() {
     if (width_ < 1 || height_ < 1) return;
     renderer_->switches = atQuality(switches, quality ? quality->level() : 0);
     renderer_->setTiming(timing);
+    RenderTarget& target = sizedTarget();
     const auto begin = std::chrono::steady_clock::now();
-    renderer_->render(sizedTarget(), camera, time);
+    findLevels(target);
+    renderer_->render(target, camera, time);
     glFinish();
     passes_ = renderer_->passes();
     seconds_ = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
@@ -115,6 +130,7 @@ Image ViewerSession::pictureOf(int width, int height, int n) {
     const RenderTarget other({.width = n * width, .height = n * height});
     renderer_->switches = switches;
     renderer_->setTiming(false);
+    findLevels(other);
     renderer_->render(other, camera, time);
     const Image fine = other.read();
     Image out(width, height, 3);
@@ -141,12 +157,14 @@ bool ViewerSession::attempt(const std::string& about, const std::function<void()
 /// A scene whose shaders don't compile is no good one either: the first picture decides.
 void ViewerSession::apply(SceneDescription next) {
     SceneDescription last = scene();
+    levels_.reset();
     renderer_->setScene(std::move(next));
     ++materials_;
     touch();
     try {
         drawOnce();
     } catch (...) {
+        levels_.reset();
         renderer_->setScene(std::move(last));
         throw;
     }

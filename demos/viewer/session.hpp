@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "demos/viewer/file_watch.hpp"
+#include "shading/hybrid/level_pass.hpp"
 #include "shading/multipass/quality.hpp"
 #include "shading/scene_bounds.hpp"
 #include "shading/scene_renderer.hpp"
@@ -116,6 +117,7 @@ private:
     bool attempt(const std::string& about, const std::function<void()>& work);
     void apply(SceneDescription next);
     void drawOnce();
+    void findLevels(const RenderTarget& target);
     void readScene();
     void readShaders();
     void watchFiles();
@@ -124,6 +126,7 @@ private:
     SessionOptions options_;
     std::unique_ptr<ProgramLoader> loader_;
     std::unique_ptr<SceneRenderer> renderer_;  ///< after the loader that it uses
+    std::optional<LevelPass> levels_;          ///< after the renderer whose scene it is of
     std::optional<RenderTarget> target_;
     SceneBounds bounds_;
     FileWatch sceneFiles_, shaderFiles_;

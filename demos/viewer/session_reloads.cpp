@@ -57,6 +57,7 @@ void ViewerSession::readShaders() {
         const RenderTarget trial({.width = 8, .height = 8});
         renderer->render(trial, camera, time);
         loader->load("fullscreen.vert.glsl", "present.frag.glsl");
+        levels_.reset();
         renderer_ = std::move(renderer);
         loader_ = std::move(loader);
         touch();

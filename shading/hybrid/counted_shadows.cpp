@@ -1,10 +1,6 @@
 #include "shading/hybrid/counted_shadows.hpp"
 
 #include <epoxy/gl.h>
-#include <fmt/format.h>
-
-#include <algorithm>
-
 #include "core/error.hpp"
 #include "core/sampling.hpp"
 #include "shading/context.hpp"
@@ -17,26 +13,6 @@ namespace {
 constexpr int kBits = 7;  ///< of the stencil's g-count; the eighth is a borrow, which capped volumes never have
 
 const void* offset(std::size_t indices) { return reinterpret_cast<const void*>(indices * sizeof(std::uint32_t)); }
-
-void makeTarget(std::optional<FramebufferName>& framebuffer, std::optional<TextureName>& texture, int width, int height,
-                GlName depth) {
-    framebuffer.emplace();
-    texture.emplace();
-    glBindTexture(GL_TEXTURE_2D, texture->name());
-    glTexImage2D(GL_TEXTURE_2D, 0, GL_R32F, width, height, 0, GL_RED, GL_FLOAT, nullptr);
-    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
-    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
-    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAX_LEVEL, 0);
-    glBindTexture(GL_TEXTURE_2D, 0);
-    glBindFramebuffer(GL_FRAMEBUFFER, framebuffer->name());
-    glFramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, texture->name(), 0);
-    if (depth != 0) glFramebufferRenderbuffer(GL_FRAMEBUFFER, GL_DEPTH_STENCIL_ATTACHMENT, GL_RENDERBUFFER, depth);
-    const GLenum status = glCheckFramebufferStatus(GL_FRAMEBUFFER);
-    glBindFramebuffer(GL_FRAMEBUFFER, 0);
-    checkGl("making a target of counted shadows");
-    if (status != GL_FRAMEBUFFER_COMPLETE)
-        throw Error(fmt::format("counted shadows: expected a complete framebuffer, found status 0x{:04x}", status));
-}
 
 void fullscreenState(GlName framebuffer) {
     glBindFramebuffer(GL_FRAMEBUFFER, framebuffer);
@@ -106,20 +82,15 @@ CountedShadows::CountedShadows(ProgramLoader& loader, const SceneDescription& sc
 
 void CountedShadows::allocate(const GeometryBuffer& geometry) {
     width_ = geometry.width(), height_ = geometry.height();
-    makeTarget(counting_, count_, width_, height_, geometry.depthBuffer());
-    makeTarget(adding_, sum_, width_, height_, 0);
-    makeTarget(filtering_, filtered_, width_, height_, 0);
+    count_.emplace(width_, height_, geometry.depthBuffer());
+    levels_.emplace(width_, height_);
 }
 
 void CountedShadows::begin(const GeometryBuffer& geometry, const Camera& camera) {
     if (geometry_ != &geometry || width_ != geometry.width() || height_ != geometry.height()) allocate(geometry);
     geometry_ = &geometry;
-    step_ = 0;
     worldToClip_ = camera.projection(double(width_) / height_) * camera.view();
-    const GLfloat zero[] = {0, 0, 0, 0};
-    glBindFramebuffer(GL_FRAMEBUFFER, adding_->name());
-    glClearBufferfv(GL_COLOR, 0, zero);
-    glBindFramebuffer(GL_FRAMEBUFFER, 0);
+    levels_->clear();
 }
 
 /// Nodes that are met on the way from some points of the view plane to the light.
@@ -159,7 +130,7 @@ void CountedShadows::draw(const Object& object, const Vec4& light, bool counted,
 /// Adds the g-count, bit by bit; counts below 0, of volumes without ends, as 0.
 void CountedShadows::addStencil() {
     const Program& program = loader_.load("fullscreen.vert.glsl", "counted_add.frag.glsl");
-    fullscreenState(counting_->name());
+    fullscreenState(count_->framebuffer());
     glStencilOp(GL_KEEP, GL_KEEP, GL_KEEP);
     const VertexArray empty;
     for (int bit = 0; bit < kBits; ++bit) {
@@ -180,7 +151,7 @@ void CountedShadows::add(const Vec4& light, double weight, const CountedShadowOp
     volume.set("nacre_world_to_clip", glm::mat4(worldToClip_));
     volume.set("nacre_stencil_light", glm::vec4(light));
     setModel(volume, glm::dmat4(1));
-    glBindFramebuffer(GL_FRAMEBUFFER, counting_->name());
+    glBindFramebuffer(GL_FRAMEBUFFER, count_->framebuffer());
     glViewport(0, 0, width_, height_);
     const GLfloat zero[] = {0, 0, 0, 0};
     const GLint none = 0;
@@ -209,50 +180,28 @@ void CountedShadows::add(const Vec4& light, double weight, const CountedShadowOp
     glDisable(GL_DEPTH_CLAMP);
     addStencil();
     glDisable(GL_STENCIL_TEST);
-    step_ = std::max(step_, weight);
+    glDisable(GL_BLEND);
+    glDepthMask(GL_TRUE);
     const Program& mask = loader_.load("fullscreen.vert.glsl", "counted_mask.frag.glsl");
-    fullscreenState(adding_->name());
+    levels_->beginAdding(weight);
     glActiveTexture(GL_TEXTURE0);
-    glBindTexture(GL_TEXTURE_2D, count_->name());
+    glBindTexture(GL_TEXTURE_2D, count_->texture());
     mask.set("nacre_counted_image", 0);
     mask.set("nacre_counted_value", static_cast<float>(weight));
     drawFullscreen(VertexArray());
     glBindTexture(GL_TEXTURE_2D, 0);
-    glDisable(GL_BLEND);
-    glEnable(GL_DEPTH_TEST);
-    glDepthMask(GL_TRUE);
-    glBindFramebuffer(GL_FRAMEBUFFER, 0);
+    levels_->endAdding();
     checkGl("counting shadows");
 }
 
 Image CountedShadows::read(ShadowFilter filter) {
     require(geometry_ != nullptr, "counted shadows: expected begin before read");
-    if (filter != ShadowFilter::None) {
-        const Program& program = loader_.load(
-            "fullscreen.vert.glsl", "shadow_filter.frag.glsl",
-            filter == ShadowFilter::EdgeStopping ? ShaderDefines{{"NACRE_EDGE_STOPPING", "1"}} : ShaderDefines{});
-        geometry_->bind(program);
-        glActiveTexture(GL_TEXTURE3);
-        glBindTexture(GL_TEXTURE_2D, sum_->name());
-        program.set("nacre_counted_image", 3);
-        program.set("nacre_counted_value", static_cast<float>(step_));
-        fullscreenState(filtering_->name());
-        glViewport(0, 0, width_, height_);
-        drawFullscreen(VertexArray());
-        glEnable(GL_DEPTH_TEST);
-    }
-    std::vector<float> values(static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_));
-    glBindFramebuffer(GL_FRAMEBUFFER, (filter == ShadowFilter::None ? adding_ : filtering_)->name());
-    glPixelStorei(GL_PACK_ALIGNMENT, 1);
-    glReadPixels(0, 0, width_, height_, GL_RED, GL_FLOAT, values.data());
-    glBindFramebuffer(GL_FRAMEBUFFER, 0);
-    checkGl("reading counted shadows");
-    Image out(width_, height_, 1);
-    for (int y = 0; y < height_; ++y)
-        for (int x = 0; x < width_; ++x)
-            out.at(x, height_ - 1 - y, 0) =
-                values[static_cast<std::size_t>(y) * static_cast<std::size_t>(width_) + static_cast<std::size_t>(x)];
-    return out;
+    return levels_->read(loader_, *geometry_, filter);
+}
+
+const ShadowLevels& CountedShadows::levels() const {
+    require(geometry_ != nullptr, "counted shadows: expected begin before levels");
+    return *levels_;
 }
 
 }  // namespace nacre

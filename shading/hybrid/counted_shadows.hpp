@@ -1,8 +1,8 @@
 // Shadow volumes by s-count and g-count (HYBRID section 2), and soft shadows from binary images of a light's points.
 #pragma once
 
-#include "shading/hybrid/geometry_buffer.hpp"
 #include "shading/hybrid/ray_scene.hpp"
+#include "shading/hybrid/shadow_levels.hpp"
 #include "shading/multipass/shadow_volume.hpp"
 
 namespace nacre {
@@ -16,11 +16,6 @@ struct CountedShadowOptions {
     VolumeCapping capping = VolumeCapping::Exact;
     int planePoints = 16;  ///< Approximate: rays from the view plane, ≥ 1
 };
-
-/// How a soft shadow's levels are smoothed. Box: the paper's 7 × 7 average. EdgeStopping: the same, of those pixels
-/// that show the same object near the plane of the middle one's surface, and differ from it by at most one of the
-/// light's points: steps between levels go, edges of shadows stay.
-enum class ShadowFilter { None, Box, EdgeStopping };
 
 /// For one view. Of each pixel's ray from the view plane (here the near plane) to the point that it shows:
 ///   s-count  sides entered minus sides left before that point: drawn with the depth test into a float's signed values
@@ -42,6 +37,7 @@ public:
     void add(const Vec4& light, double weight = 1, const CountedShadowOptions& options = {});
     /// What was added, one channel, row 0 on top.
     Image read(ShadowFilter filter = ShadowFilter::None);
+    const ShadowLevels& levels() const;     ///< \throws std::invalid_argument before begin
     int capped() const { return capped_; }  ///< volumes with ends, in the last add
 
 private:
@@ -61,9 +57,8 @@ private:
     const GeometryBuffer* geometry_ = nullptr;
     glm::dmat4 worldToClip_{1};
     int width_ = 0, height_ = 0, capped_ = 0;
-    double step_ = 0;  ///< the largest weight added
-    std::optional<FramebufferName> counting_, adding_, filtering_;
-    std::optional<TextureName> count_, sum_, filtered_;
+    std::optional<LevelTarget> count_;
+    std::optional<ShadowLevels> levels_;
 };
 
 }  // namespace nacre

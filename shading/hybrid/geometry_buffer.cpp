@@ -37,7 +37,7 @@ GeometryBuffer::GeometryBuffer(int width, int height) : width_(width), height_(h
 }
 
 void GeometryBuffer::draw(ProgramLoader& loader, const SceneDescription& scene, const std::vector<glm::dmat4>& nodes,
-                          std::span<const Rgb> albedos, std::map<int, GpuMesh>& meshes) {
+                          std::span<const Rgb> albedos, std::map<int, GpuMesh>& meshes, const Camera& camera) {
     glBindFramebuffer(GL_FRAMEBUFFER, framebuffer_.name());
     glViewport(0, 0, width_, height_);
     glEnable(GL_DEPTH_TEST);
@@ -48,7 +48,7 @@ void GeometryBuffer::draw(ProgramLoader& loader, const SceneDescription& scene, 
     glClearColor(0, 0, 0, 0);
     glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
     const Program& program = loader.load("lit.vert.glsl", "geometry.frag.glsl");
-    setView(program, scene.camera, double(width_) / height_);
+    setView(program, camera, double(width_) / height_);
     for (std::size_t i = 0; i < scene.nodes.size(); ++i) {
         const SceneNode& node = scene.nodes[i];
         if (node.mesh < 0) continue;

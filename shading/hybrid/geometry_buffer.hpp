@@ -29,7 +29,11 @@ public:
     /// Draws every node with a mesh. \param meshes  by the scene's index, kept between calls; albedos: one a material;
     ///        nodes: nodeTransforms' result. Leaves framebuffer 0 bound, depth test and write on.
     void draw(ProgramLoader& loader, const SceneDescription& scene, const std::vector<glm::dmat4>& nodes,
-              std::span<const Rgb> albedos, std::map<int, GpuMesh>& meshes);
+              std::span<const Rgb> albedos, std::map<int, GpuMesh>& meshes) {
+        draw(loader, scene, nodes, albedos, meshes, scene.camera);
+    }
+    void draw(ProgramLoader& loader, const SceneDescription& scene, const std::vector<glm::dmat4>& nodes,
+              std::span<const Rgb> albedos, std::map<int, GpuMesh>& meshes, const Camera& camera);
     std::vector<SeenPoint> read() const;
     GlName depthBuffer() const { return depth_.name(); }  ///< a renderbuffer of 24 bits, and 8 of stencil
     /// Sets the uniforms of bind/geometry.glsl and leaves `program` in use: units 0 to 2.

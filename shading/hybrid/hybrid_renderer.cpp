@@ -35,7 +35,8 @@ HybridRenderer::HybridRenderer(ProgramLoader& loader, SceneDescription scene, Hy
     : loader_(loader),
       scene_(std::move(scene)),
       materials_(std::move(materials)),
-      direct_(loader, withoutSpecular(scene_)) {
+      direct_(loader, withoutSpecular(scene_)),
+      sampled_(loader, scene_) {
     const std::size_t count = scene_.materials.size();
     require(materials_.albedos.size() == count && materials_.brdfs.size() == count,
             "hybrid: expected an albedo and a BRDF for each material");
@@ -100,8 +101,9 @@ TracedLight HybridRenderer::lightOfEnds(const HybridOptions& options, const std:
     const auto areas = areasInWorld(scene_, nodes);
     for (std::size_t i = 0; on.lamps && i < lights.size(); ++i) {
         const bool shadow = on.shadows && scene_.lights[i].shadow;
-        const bool points = areas[i] && shadow && on.shadowMethod == ShadowMethod::Volumes;
-        for (const Light& lamp : points ? pointsOfArea(lights[i], *areas[i], on.lightPoints) : std::vector{lights[i]}) {
+        const bool points = areas[i] && shadow && on.shadowMethod != ShadowMethod::Maps;
+        const int count = options.shadows ? options.shadows->points : on.lightPoints;
+        for (const Light& lamp : points ? pointsOfArea(lights[i], *areas[i], count) : std::vector{lights[i]}) {
             out.lamps.push_back(lamp);
             out.shadowed.push_back(shadow);
         }
@@ -174,6 +176,12 @@ std::function<CompositedFrame()> HybridRenderer::drawAll(Drawing& d, PipeCrew* c
         const int depth = direct_.switches.specular.depth;
         d.ends = std::async(std::launch::async, [&d, depth] { return d.tracer->follow(d.seen, d.width, depth); });
     }
+    if (d.options.shadows && (!crew || crew->leads()))
+        stage("shadows", [&] {
+            direct_.switches.lightLevels = sampled_.draw(geometry, scene_.camera, d.nodes, *d.options.shadows);
+            direct_.switches.shadowMethod = ShadowMethod::Levels;
+        });
+    report_.shadows = sampled_.choice();
     if (d.options.virtualLights) placeVirtualLights(*d.options.virtualLights, d.nodes, crew);
     const RenderTarget direct({.width = d.width, .height = d.height}),
         indirect({.width = d.width, .height = d.height, .depth = false});

@@ -7,6 +7,7 @@
 #include "shading/hybrid/indirect_pass.hpp"
 #include "shading/hybrid/pipe_crew.hpp"
 #include "shading/hybrid/reflected_power.hpp"
+#include "shading/hybrid/sampled_shadows.hpp"
 #include "shading/hybrid/traced_pixels.hpp"
 #include "shading/scene_renderer.hpp"
 
@@ -25,6 +26,7 @@ struct VirtualLightOptions {
 
 struct HybridOptions {
     std::optional<VirtualLightOptions> virtualLights{};  ///< none: no indirect light
+    std::optional<SampledShadowOptions> shadows{};       ///< none: as direct().switches say
     bool traced = false;  ///< specular pixels, to the depth of direct().switches; else they are black
 };
 
@@ -37,8 +39,9 @@ struct HybridMaterials {
 /// What the stages took and left.
 struct HybridReport {
     std::size_t elements = 0, lights = 0;
-    double leftOut = 0;  ///< share of the reflected power that has no virtual light
-    double clamped = 0;  ///< share of points' light in the picture that a bounded singularity took away
+    double leftOut = 0;             ///< share of the reflected power that has no virtual light
+    SampledShadowChoice shadows{};  ///< with sampled ones
+    double clamped = 0;             ///< share of points' light in the picture that a bounded singularity took away
     TracedReport traced{};
     std::vector<PassTime> stages;  ///< wall seconds between two glFinish; gpuSeconds isn't measured
     double shadowSeconds = 0;      ///< of the direct stage: making and counting volumes, and the light outside them
@@ -97,6 +100,7 @@ private:
     std::map<int, GpuMesh> meshes_;
     VirtualLights lights_;
     std::optional<VirtualShadows> shadows_;
+    SampledShadows sampled_;
     HybridReport report_;
 };
 

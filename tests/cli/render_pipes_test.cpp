@@ -155,7 +155,7 @@ TEST(CommandRenderPipes, RefusesWhatDoesNotFit) {
     refused({"--pipes", "2", "--latency"}, "--latency: expected --compositing software beside it");
     refused({"--pipes", "2", "--mpi"}, "--pipes: expected none beside --mpi");
     refused({"--pipes", "2", "--compositing", "hardware"}, "expected binary-swap or software");
-    for (const char* flag : {"--compositing", "--repeat", "--patience", "--latency"}) {
+    for (const char* flag : {"--compositing", "--patience", "--latency"}) {
         const std::string value = std::string(flag) == "--compositing" ? "software" : "2";
         refused(
             std::string(flag) == "--latency" ? std::vector<std::string>{flag} : std::vector<std::string>{flag, value},

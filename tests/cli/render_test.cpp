@@ -2,6 +2,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <set>
+
 #include <cstdlib>
 #include <nlohmann/json.hpp>
 
@@ -169,7 +171,7 @@ TEST(CommandRender, ShadowsByVolumes) {
     ASSERT_EQ(radiosity.code, 0) << radiosity.err;
     EXPECT_LE(json::parse(radiosity.out)["radiosity"]["left"], 1);
     for (const auto& [flag, words] :
-         {std::pair{"--shadows", "maps or volumes"}, {"--soft", "regenerated, pivot or levels"}}) {
+         {std::pair{"--shadows", "expected maps, volumes"}, {"--soft", "regenerated, pivot or levels"}}) {
         const Outcome wrong = nacre({"render", sceneFile(scratch), "-o", scratch / "w.png", flag, "blurred"});
         EXPECT_EQ(wrong.code, 2);
         EXPECT_THAT(wrong.err, HasSubstr(words));
@@ -231,14 +233,25 @@ TEST(CommandRender, InStages) {
     };
     refused({}, "--indirect: expected --specular traced beside it in a scene with mirrors or panes");
     for (const char* flag : {"--radiosity", "--shares", "--passes"})
-        refused({"--specular", "traced", flag}, std::string(flag) + ": expected neither --indirect");
-    refused({"--specular", "traced", "--quality", "low"}, "--quality: expected neither");
-    refused({"--specular", "traced", "--light-paths", "1"}, "--light-paths: expected neither");
+        refused({"--specular", "traced", flag}, std::string(flag) + ": expected none of --indirect");
+    refused({"--specular", "traced", "--quality", "low"}, "--quality: expected none of");
+    refused({"--specular", "traced", "--light-paths", "1"}, "--light-paths: expected none of");
     for (const char* stage : {"", "-direct", "-indirect", "-traced"})
         for (const char* what : {"", "-reference", "-difference"})
             EXPECT_TRUE(std::filesystem::exists(scratch / (std::string("s") + stage + what + ".png"))) << stage << what;
     EXPECT_EQ(nacre({"render", scene, "-o", scratch / "v.png"}).code, 1) << "views of planar mirrors alone";
     refused({"--elements", "16777216", "--specular", "traced"}, "--elements: expected a whole number 1 to 4194304");
+    const Outcome sampled = nacre({"render", scene, "-o", scratch / "l.png", "--size", "48x48", "--samples", "1",
+                                   "--shadows", "sampled", "--specular", "traced", "--repeat", "2", "--json"});
+    ASSERT_EQ(sampled.code, 0) << sampled.err;
+    const json chosen = json::parse(sampled.out);
+    EXPECT_THAT((std::set<std::string>{"maps", "volumes"}), testing::Contains(chosen["shadows"]["method"]));
+    EXPECT_GT(chosen["shadows"]["map_psnr"], 20);
+    EXPECT_GT(chosen["repeated"]["frames_per_second"], 0);
+    EXPECT_THAT(nacre({"render", scene, "-o", scratch / "l.png", "--shadows", "sampled"}).err,
+                HasSubstr("--shadows: expected --specular traced beside it"));
+    EXPECT_THAT(nacre({"render", scene, "-o", scratch / "l.png", "--shadows", "soft"}).err,
+                HasSubstr("expected maps, volumes, sampled-maps, sampled-volumes or sampled, found 'soft'"));
     for (const auto& [flag, words] : {std::pair{"--indirect", "virtual-lights"},
                                       {"--specular", "views or traced"},
                                       {"--virtual-choice", "grouped or strongest"},

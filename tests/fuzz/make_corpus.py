@@ -5,6 +5,7 @@ Run from the repository root: python3 tests/fuzz/make_corpus.py
 envmap of a 4 x 2 picture --convert,
 bump of a 4 x 3 picture with every output; corpus/exr from OpenEXR:
 tests/core/exr_files.hpp, 9 × 9 texels or less in each compression.)"""
+import base64
 import json
 import math
 import os
@@ -203,6 +204,16 @@ write("scene/empty.json", b'{"nacre_scene": 1}')
 write("scene/import.json", b'{"nacre_scene": 1, "nodes": {"n": {"import": "x.glb"}, "m": {"import": "scene.json"}}}')
 write("scene/twice.json", b'{"nacre_scene": 1, "nodes": {"n": {}, "n": {}}}')
 write("scene/cycle.json", b'{"nacre_scene": 1, "nodes": {"n": {"children": ["m"]}, "m": {"children": ["n"]}}}')
+
+# A room that a headset scanned: a square of two triangles, and a box about it.
+still = {"orientation": {"x": 0, "y": 0, "z": 0, "w": 1}, "position": {"x": 0, "y": 0, "z": 0}}
+corners = struct.pack("<12f", *(c for i in range(4) for c in (i & 1, i >> 1, 0)))
+write("scene/room.json", json.dumps({"type": "scene", "version": 1, "spatialEntities": [
+    {"semanticLabel_META": "GLOBAL_MESH", "locatable_META": still, "triangleMesh_META": {
+        "vertices": base64.b64encode(corners).decode(),
+        "indices": base64.b64encode(struct.pack("<6I", 0, 1, 2, 1, 3, 2)).decode()}},
+    {"semanticLabel_META": "TABLE", "locatable_META": still, "bounded3D_META": {
+        "offset": {"x": 0, "y": 0, "z": 0}, "extent": {"width": 1, "height": 1, "depth": 1}}}]}, indent=1).encode())
 write("scene/deep.json", b"[" * 70)
 
 

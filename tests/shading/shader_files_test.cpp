@@ -223,7 +223,12 @@ std::vector<ProgramCase> programs() {
     out.push_back({"fullscreen.vert.glsl", "counted_add.frag.glsl", {{}}});
     out.push_back({"fullscreen.vert.glsl", "counted_mask.frag.glsl", {{}}});
     out.push_back({"fullscreen.vert.glsl", "pipe_add.frag.glsl", {{}}});
-    out.push_back({"fullscreen.vert.glsl", "shadow_filter.frag.glsl", {{}, {{"NACRE_EDGE_STOPPING", "1"}}}});
+    out.push_back({"fullscreen.vert.glsl",
+                   "shadow_filter.frag.glsl",
+                   {{{"NACRE_FILTER_RADIUS", "3"}, {"NACRE_EDGE_STOPPING", "0"}},
+                    {{"NACRE_FILTER_RADIUS", "3"}, {"NACRE_EDGE_STOPPING", "1"}}}});
+    out.push_back({"point_map.vert.glsl", "point_map.frag.glsl", {{}}});
+    out.push_back({"fullscreen.vert.glsl", "mapped_shadow.frag.glsl", {{{"NACRE_POINTS", "64"}}}});
     for (const char* near : {"NACRE_VIRTUAL_POINT", "NACRE_VIRTUAL_DISK", "NACRE_VIRTUAL_RECTANGLE"})
         out.push_back({"fullscreen.vert.glsl", "indirect.frag.glsl",
                        combined({{{"NACRE_VIRTUAL_NEAR", near}}}, {{}, {{"NACRE_VIRTUAL_SHADOWS", "1"}}})});

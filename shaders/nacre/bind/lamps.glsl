@@ -4,6 +4,7 @@
 
 #include "nacre/bind/brdf.glsl"
 #include "nacre/bind/bump.glsl"
+#include "nacre/bind/light_levels.glsl"
 #include "nacre/bind/lights.glsl"
 #include "nacre/bind/shadows.glsl"
 #include "nacre/frame.glsl"
@@ -31,6 +32,9 @@ vec3 nacre_lamps_by(NacreBump point, vec3 to_eye, vec3 position, vec3 shadow_pos
             vec3 arrives = nacre_light_color[i] * nacre_light_share(i, to_light, position);
 #ifdef NACRE_SHADOWS
             arrives *= nacre_shadow_lit(i, shadow_position, shadow_normal);
+#endif
+#ifdef NACRE_LIGHT_LEVELS
+            arrives *= 1.0 - texelFetch(nacre_light_levels, ivec3(ivec2(gl_FragCoord.xy), i), 0).x;
 #endif
             if (direct) sum += nacre_brdf(wi, wo) * (lit * wi.z) * arrives;
             if (indirect) sum += point.indirect * arrives;

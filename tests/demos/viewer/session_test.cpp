@@ -212,6 +212,44 @@ TEST_F(Session, APictureOfAnotherSizeIsTheMeanOfALargerOne) {
     }
 }
 
+TEST_F(Session, LevelsOfShadowsFollowLightsAndScenes) {
+    const std::string lamp = R"("lamp": {"type": "point", "position": [0, 3, 0], "intensity": 20, "shadow": true,
+        "area": {"u": [0.3, 0, 0], "v": [0, 0, 0.3]}})";
+    std::string scene = kScene;
+    const std::string sun = R"("sun": {"type": "directional", "direction": [-1, -1, -1], "intensity": 3})";
+    scene.replace(scene.find(sun), sun.size(), lamp);
+    scene.replace(scene.find(R"("torus": {"torus": {}})"), 22,
+                  R"("torus": {"torus": {}}, "floor": {"quad": {"size": 9}})");
+    scene.replace(
+        scene.find(R"("nodes": {)"), 10,
+        R"("nodes": {"floor": {"mesh": "floor", "material": "clay", "translation": [0, -2, 0], "axis": [1, 0, 0],
+                     "angleDeg": -90}, )");
+    write(scene);
+    ViewerSession session = open();
+    const auto dark = [&](bool shadows) {
+        session.switches.shadows = shadows;
+        session.touch();
+        double sum = 0;
+        for (const float v : pixels(session)) sum += v;
+        return sum;
+    };
+    session.switches.shadowMethod = ShadowMethod::Levels;
+    const double shadowed = dark(true), bare = dark(false);
+    EXPECT_LT(shadowed, 0.97 * bare);
+    SceneLight moved = session.scene().lights[0];
+    moved.light.position = {9, 3, 0};
+    ASSERT_TRUE(session.setLight(0, moved));
+    EXPECT_NE(dark(true), shadowed);
+    write(kScene);  // a directional light without shadow, and other meshes
+    session.reload();
+    EXPECT_THAT(session.problems(), IsEmpty());
+    EXPECT_EQ(dark(true), dark(false));
+    session.switches.lightPoints = 0;
+    session.touch();
+    session.draw();
+    EXPECT_THAT(session.problems(), ElementsAre(Pair("picture", HasSubstr("points"))));
+}
+
 TEST_F(Session, AMissingFileIsNamed) {
     EXPECT_THAT(tests::messageOf<Error>([&] {
                     ViewerSession({scratch_ / "absent.json", {}, 1});

@@ -4,9 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "../gpu_evaluate.hpp"
-#include "core/light_area.hpp"
 #include "hybrid_fixture.hpp"
-#include "shading/primitives.hpp"
 #include "shading/scene_file.hpp"
 
 namespace nacre {
@@ -117,59 +115,6 @@ TEST(CountedShadows, ApproximateEndsMissWhatTheRaysMiss) {
             EXPECT_GT(one, 0.001) << "its shadow is a fiftieth of the view plane";
         }
     }
-}
-
-/// A ball over a floor under a square lamp.
-SceneDescription softRoom() {
-    SceneDescription scene = test::emptyRoom();
-    test::addSquare(scene, 6, {0, 0, 0}, {0, 1, 0});
-    scene.meshes.push_back({"ball", makeSphere(0.5f, 48, 24)});
-    SceneNode& ball = scene.nodes.emplace_back();
-    ball.mesh = 1, ball.material = 0;
-    ball.translation = {0, 0.8, 0};
-    scene.camera.eye = {2, 2.5, 3};
-    scene.camera.target = {0, 0.3, 0};
-    scene.camera.fovY = 0.9;
-    return scene;
-}
-
-TEST(CountedShadows, SixteenPointsAndTheEdgeStoppingFilterMakeSoftShadows) {
-    test::context();
-    ProgramLoader loader;
-    const SceneDescription scene = softRoom();
-    const Light lamp{false, {0.5, 3, 0.5}, Rgb(1), {}};
-    const LightArea area{{0.4, 0, 0}, {0, 0, 0.4}};
-    const auto nodes = nodeTransforms(scene, 0);
-    constexpr int kEdge = 256;
-    GeometryBuffer geometry(kEdge, kEdge);
-    std::map<int, GpuMesh> meshes;
-    geometry.draw(loader, scene, nodes, test::albedos(scene), meshes);
-    CountedShadows shadows(loader, scene, nodes);
-    shadows.begin(geometry, scene.camera);
-    for (const Light& p : pointsOfArea(lamp, area, 16)) shadows.add(homogeneous(p), 1.0 / 16);
-    const std::vector<SeenPoint> seen = geometry.read();
-    const RayScene rays(scene, nodes);
-    const std::vector<Light> many = pointsOfArea(lamp, area, 1024);
-    std::map<ShadowFilter, double> squares;
-    std::map<ShadowFilter, Image> images;
-    for (const ShadowFilter f : {ShadowFilter::None, ShadowFilter::Box, ShadowFilter::EdgeStopping})
-        images[f] = shadows.read(f);
-    int count = 0;
-    for (int y = 0; y < kEdge; ++y)
-        for (int x = 0; x < kEdge; ++x) {
-            const SeenPoint& p = seen[static_cast<std::size_t>(y * kEdge + x)];
-            const Vec3 place(p.place);
-            if (p.place.w == 0 || glm::dot(Vec3(p.normal), lamp.position - place) < 0) continue;
-            double truth = 0;
-            for (const Light& l : many) truth += rays.blocked(place, l.position, true) / 1024.0;
-            for (const auto& [f, image] : images) squares[f] += sqr(image.at(x, kEdge - 1 - y, 0) - truth);
-            ++count;
-        }
-    const auto psnr = [&](ShadowFilter f) { return -10 * std::log10(squares[f] / count); };
-    std::printf("16 points: %.1f dB, 7 x 7 average %.1f dB, edge-stopping %.1f dB\n", psnr(ShadowFilter::None),
-                psnr(ShadowFilter::Box), psnr(ShadowFilter::EdgeStopping));
-    EXPECT_GE(psnr(ShadowFilter::EdgeStopping), 35);
-    EXPECT_GT(psnr(ShadowFilter::EdgeStopping), psnr(ShadowFilter::Box));
 }
 
 }  // namespace
