@@ -27,7 +27,7 @@ struct Arguments {
     std::string out = "build/bench", shared;
     std::vector<int> sourceSizes;
     std::vector<std::string> materials,
-        techniques = {"factored", "environment", "bump", "shadow", "transfer", "specular"};
+        techniques = {"factored", "environment", "bump", "shadow", "transfer", "specular", "hybrid"};
     std::string scenes = NACRE_SCENE_FOLDER;
     bool quick = false, barsOnly = false, noBars = false, noGpu = false, quiet = false, list = false;
 };
@@ -204,6 +204,16 @@ void runSpecular(const Arguments& arguments, const Progress& progress, Report& r
     if (!arguments.barsOnly) report.speculars = sweepSpecular(options);
 }
 
+void runHybrid(const Arguments& arguments, const Progress& progress, Report& report) {
+    std::optional<HeadlessGpu> gpu = openGpu<HeadlessGpu>(arguments, report.notes);
+    const HybridSweepOptions options{arguments.quick, gpu ? &gpu->loader : nullptr, progress};
+    if (!arguments.noBars) {
+        const std::vector<Bar> bars = measureHybridBars(options);
+        report.bars.insert(report.bars.end(), bars.begin(), bars.end());
+    }
+    if (!arguments.barsOnly) report.hybrid = sweepHybrid(options);
+}
+
 int run(const Arguments& arguments) {
     const auto start = std::chrono::steady_clock::now();
     const Progress progress = progressOn(arguments.quiet);
@@ -228,6 +238,7 @@ int run(const Arguments& arguments) {
     if (wants(arguments, "shadow")) runShadow(arguments, progress, report);
     if (wants(arguments, "transfer")) runTransfer(arguments, progress, report);
     if (wants(arguments, "specular")) runSpecular(arguments, progress, report);
+    if (wants(arguments, "hybrid")) runHybrid(arguments, progress, report);
     report.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     if (!arguments.quiet && isatty(2) != 0) fmt::print(stderr, "\r\033[K");
     fmt::print("{}", barTable(report.bars));
@@ -249,14 +260,14 @@ int main(int argc, char** argv) {
     arguments.shared = nacre::bench::defaultShared();
     CLI::App app(
         "Measures error and cost of every factorization, of prefiltered environments, of reliefs, of "
-        "shadows, of transfer and of specular views; writes "
+        "shadows, of transfer, of specular views and of hybrid rendering; writes "
         "report.json and index.html.");
     app.add_option("--out", arguments.out, "folder to write")->capture_default_str();
     app.add_option("--shared", arguments.shared, "folder with data/brdf and tools, for measured materials")
         ->capture_default_str();
     app.add_option("--techniques", arguments.techniques,
-                   "only these: factored, environment, bump, shadow, transfer, specular")
-        ->check(CLI::IsMember({"factored", "environment", "bump", "shadow", "transfer", "specular"}));
+                   "only these: factored, environment, bump, shadow, transfer, specular, hybrid")
+        ->check(CLI::IsMember({"factored", "environment", "bump", "shadow", "transfer", "specular", "hybrid"}));
     app.add_option("--scenes", arguments.scenes, "folder with demos/scenes' files, for specular views")
         ->capture_default_str();
     app.add_option("--source-sizes", arguments.sourceSizes, "of the environments' curves: edges of the source cube")

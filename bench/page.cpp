@@ -138,7 +138,8 @@ std::string reportPage(const Report& report) {
     out += std::string(kStyle) + "</style></head><body><main>\n" + introduction(report) + barsSection(report);
     for (const Group group : kGroups) out += groupSection(report, group);
     return out + environmentSection(report.environments) + bumpSection(report.bumps) + shadowSection(report.shadows) +
-           transferSection(report.transfers) + specularSection(report.speculars) + "</main></body></html>\n";
+           transferSection(report.transfers) + specularSection(report.speculars) + hybridSection(report.hybrid) +
+           "</main></body></html>\n";
 }
 
 }  // namespace nacre::bench

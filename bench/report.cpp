@@ -60,11 +60,11 @@ json barJson(const Bar& b) {
 }  // namespace
 
 json reportJson(const Report& report) {
-    json out = {{"version", report.version},     {"machine", report.machine}, {"renderer", report.renderer},
-                {"frame", GpuLab::frameText()},  {"quick", report.quick},     {"seconds", report.seconds},
-                {"notes", report.notes},         {"bars", json::array()},     {"measurements", json::array()},
-                {"environments", json::array()}, {"bumps", json::array()},    {"shadows", json::array()},
-                {"transfers", json::array()},    {"speculars", json::array()}};
+    json out = {{"version", report.version},     {"machine", report.machine},  {"renderer", report.renderer},
+                {"frame", GpuLab::frameText()},  {"quick", report.quick},      {"seconds", report.seconds},
+                {"notes", report.notes},         {"bars", json::array()},      {"measurements", json::array()},
+                {"environments", json::array()}, {"bumps", json::array()},     {"shadows", json::array()},
+                {"transfers", json::array()},    {"speculars", json::array()}, {"hybrid", hybridJson(report.hybrid)}};
     for (const Bar& bar : report.bars) out["bars"].push_back(barJson(bar));
     for (const Measurement& m : report.measurements) out["measurements"].push_back(measurementJson(m));
     for (const EnvironmentMeasurement& m : report.environments) out["environments"].push_back(environmentJson(m));

@@ -8,6 +8,7 @@
 #include "bench/bars.hpp"
 #include "bench/bump_sweep.hpp"
 #include "bench/environment_sweep.hpp"
+#include "bench/hybrid_sweep.hpp"
 #include "bench/shadow_sweep.hpp"
 #include "bench/specular_sweep.hpp"
 #include "bench/sweep.hpp"
@@ -27,6 +28,7 @@ struct Report {
     std::vector<ShadowMeasurement> shadows;
     std::vector<TransferMeasurement> transfers;
     std::vector<SpecularMeasurement> speculars;
+    HybridSweep hybrid;
 };
 
 /// Numbers that aren't finite become the strings "inf", "-inf" and "nan".

@@ -20,28 +20,34 @@ namespace {
 constexpr std::size_t kMostErrors = 64 << 10;
 
 /// Between fork and exec: only calls that a signal handler may make.
-[[noreturn]] void become(char* const* argv, int error, pid_t parent) {
+[[noreturn]] void become(char* const* argv, char* const* variables, const std::vector<int>& kept, int error,
+                         pid_t parent) {
     ::prctl(PR_SET_PDEATHSIG, SIGTERM);
     if (::getppid() != parent) ::_exit(127);  // it ended before the line above
     const int null = ::open("/dev/null", O_RDWR);
     ::dup2(null, STDIN_FILENO);
     ::dup2(null, STDOUT_FILENO);
     ::dup2(error, STDERR_FILENO);
-    ::execv("/proc/self/exe", argv);
+    for (const int descriptor : kept) ::fcntl(descriptor, F_SETFD, 0);
+    ::execve("/proc/self/exe", argv, variables);
     ::_exit(127);
 }
 
 }  // namespace
 
-ChildProcess::ChildProcess(const std::vector<std::string>& arguments) {
+ChildProcess::ChildProcess(const std::vector<std::string>& arguments, const ChildSetting& setting) {
     std::vector<char*> argv = {const_cast<char*>("nacre")};
     for (const std::string& argument : arguments) argv.push_back(const_cast<char*>(argument.c_str()));
     argv.push_back(nullptr);
+    std::vector<char*> variables;
+    for (const std::string& variable : setting.environment) variables.push_back(const_cast<char*>(variable.c_str()));
+    for (char** variable = environ; *variable != nullptr; ++variable) variables.push_back(*variable);
+    variables.push_back(nullptr);
     int ends[2];
     if (::pipe2(ends, O_CLOEXEC) != 0) throw Error(fmt::format("a pipe: can't make it: {}", std::strerror(errno)));
     const pid_t parent = ::getpid();
     process_ = ::fork();
-    if (process_ == 0) become(argv.data(), ends[1], parent);
+    if (process_ == 0) become(argv.data(), variables.data(), setting.kept, ends[1], parent);
     const int code = errno;
     ::close(ends[1]);
     error_ = ends[0];
@@ -53,6 +59,7 @@ ChildProcess::ChildProcess(const std::vector<std::string>& arguments) {
 ChildProcess::~ChildProcess() {
     if (process_ > 0) {
         ::kill(process_, SIGTERM);
+        ::kill(process_, SIGCONT);  // a stopped one would keep it pending
         wait();
     }
     ::close(error_);

@@ -8,13 +8,19 @@
 
 namespace nacre::cli {
 
+/// What a child has besides its arguments.
+struct ChildSetting {
+    std::vector<std::string> environment{};  ///< NAME=value, before the inherited variables
+    std::vector<int> kept{};                 ///< descriptors that it inherits although they close on exec
+};
+
 /// One call of this same program, with nothing on standard input and standard output thrown away. The child ends when
 /// this process does, by SIGTERM, so that it removes what it was writing.
 class ChildProcess {
 public:
     /// \param arguments  without the program's name  \throws nacre::Error when the system gives no process
-    explicit ChildProcess(const std::vector<std::string>& arguments);
-    ~ChildProcess();  ///< ends the child and waits for it, if it still runs
+    explicit ChildProcess(const std::vector<std::string>& arguments, const ChildSetting& setting = {});
+    ~ChildProcess();  ///< ends the child, a stopped one too, and waits for it
     ChildProcess(const ChildProcess&) = delete;
     ChildProcess& operator=(const ChildProcess&) = delete;
 

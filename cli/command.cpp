@@ -119,6 +119,7 @@ static std::vector<Verb> makeVerbs(Context& context) {
 static int parseAndRun(int argc, const char* const* argv) {
     Context context;
     for (int i = 0; i < argc; ++i) context.commandLine += (i ? " " : "") + quoted(i ? argv[i] : "nacre");
+    context.arguments.assign(argv + std::min(argc, 1), argv + argc);
     const std::vector<Verb> verbs = makeVerbs(context);
     requireKnownVerb(verbs, argc, argv);
     CLI::App app("Bakes reflectance and light into small textures, each with its measured error written inside.",

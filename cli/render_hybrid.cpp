@@ -8,8 +8,10 @@
 #include "cli/numbers.hpp"
 #include "cli/output_file.hpp"
 #include "cli/picture_output.hpp"
+#include "cli/picture_set.hpp"
 #include "cli/scene_light.hpp"
 #include "cli/terminal.hpp"
+#include "core/error.hpp"
 #include "reference/scene_components.hpp"
 #include "shading/context.hpp"
 #include "shading/image_output.hpp"
@@ -127,6 +129,14 @@ std::string textOf(const json& data) {
         out += fmt::format("drawn again: {:.2f} frames/s\n", data["repeated"]["frames_per_second"].get<double>());
     for (const auto& [name, seconds] : data["stage_seconds"].items())
         out += fmt::format("{:<16} {:8.3f} s\n", name, seconds.get<double>());
+    if (data.contains("pipes")) {
+        const json& f = data["pipes"];
+        out += fmt::format("{} pipes, {}: {:.4f} s a frame;", f["count"].get<int>(),
+                           f["compositing"].get<std::string>(), f["frame_seconds"].get<double>());
+        for (const auto& [pass, share] : f["shares"].items())
+            out += fmt::format(" {} {:.1f} %", pass, 100 * share.get<double>());
+        out += "\n";
+    }
     if (!data.contains("errors")) return out;
     for (const auto& [name, e] : data["errors"].items())
         if (e.is_object())
@@ -148,62 +158,118 @@ HybridMaterials materialsOf(const SceneDescription& scene) {
 
 bool isHybrid(const HybridPictures& p) { return p.indirect || p.traced || p.shadows; }
 
+void checkHybrid(const HybridPictures& p) {
+    if (!p.indirect && !p.dependent.empty())
+        throw UsageError(p.dependent + ": expected --indirect virtual-lights beside it, found none");
+    const std::string pipes = p.pipes.count ? "--pipes" : p.pipes.mpi ? "--mpi" : p.pipes.dependent;
+    for (const auto& [flag, given] : {std::pair{std::string("--stages"), p.stages}, {pipes, !pipes.empty()}})
+        if (given && !isHybrid(p))
+            throw UsageError(flag +
+                             ": expected --indirect virtual-lights or --specular traced beside it, found neither");
+}
+
 std::vector<Option> hybridOptions(HybridPictures& p) {
-    return {{"--indirect", "METHOD", "Add light that another surface reflected, by virtual-lights",
-             [&p](const std::string& text) {
-                 if (text != "virtual-lights")
-                     throw UsageError(fmt::format("expected virtual-lights, found '{}'", text));
-                 p.indirect = true;
-             }},
-            {"--virtual-lights", "N", "At most so many (default 64)",
-             integerInto([&p](long long v) { p.lights.count = static_cast<int>(v); }, 1, 65536)},
-            {"--virtual-shadows", "", "Surfaces block virtual lights' light", into(p.lights.shadows)},
-            {"--virtual-choice", "CHOICE",
-             "grouped (default): lights stand for groups of elements; strongest: for those that reflect most, and the\n"
-             "rest is left out",
-             [&p](const std::string& text) {
-                 if (text != "grouped" && text != "strongest")
-                     throw UsageError(fmt::format("expected grouped or strongest, found '{}'", text));
-                 p.lights.choice = text == "grouped" ? VirtualLightChoice::Grouped : VirtualLightChoice::Strongest;
-             }},
-            {"--virtual-near", "SHAPE",
-             "Near by they are a rectangle (default), a disk or a point, which has a singularity",
-             [&p](const std::string& text) {
-                 if (text != "rectangle" && text != "disk" && text != "point")
-                     throw UsageError(fmt::format("expected rectangle, disk or point, found '{}'", text));
-                 p.lights.near = text == "point"  ? NearLight::Point
-                                 : text == "disk" ? NearLight::Disk
-                                                  : NearLight::Rectangle;
-             }},
-            {"--elements", "N", "That surfaces are cut into, at least (default 32768)",
-             integerInto([&p](long long v) { p.lights.elements.least = static_cast<int>(v); }, 1, 1 << 24)},
-            {"--specular", "METHOD",
-             "Mirrors and panes by views (default; planar ones), or traced: rays on the CPU, curved ones too",
-             [&p](const std::string& text) {
-                 if (text != "views" && text != "traced")
-                     throw UsageError(fmt::format("expected views or traced, found '{}'", text));
-                 p.traced = text == "traced";
-             }},
-            {"--repeat", "N", "Draw a staged frame so many times again, and print frames/s of the fastest",
-             integerInto([&p](long long v) { p.repeats = static_cast<int>(v); }, 1, 1000)},
-            {"--stages", "", "Write each stage beside the output, and with --reference its truth", into(p.stages)}};
+    const auto light = [&p](const char* flag, const char* value, const char* summary,
+                            std::function<void(const std::string&)> take) {
+        return Option{flag, value, summary, [&p, flag, take = std::move(take)](const std::string& text) {
+                          if (p.dependent.empty()) p.dependent = flag;
+                          take(text);
+                      }};
+    };
+    std::vector<Option> out = {
+        {"--indirect", "METHOD", "Add light that another surface reflected, by virtual-lights",
+         [&p](const std::string& text) {
+             if (text != "virtual-lights") throw UsageError(fmt::format("expected virtual-lights, found '{}'", text));
+             p.indirect = true;
+         }},
+        light("--virtual-lights", "N", "At most so many (default 64)",
+              integerInto([&p](long long v) { p.lights.count = static_cast<int>(v); }, 1, 65536)),
+        light("--virtual-shadows", "", "Surfaces block virtual lights' light", into(p.lights.shadows)),
+        light(
+            "--virtual-choice", "CHOICE",
+            "grouped (default): lights stand for groups of elements; strongest: for those that reflect most, and the\n"
+            "rest is left out",
+            [&p](const std::string& text) {
+                if (text != "grouped" && text != "strongest")
+                    throw UsageError(fmt::format("expected grouped or strongest, found '{}'", text));
+                p.lights.choice = text == "grouped" ? VirtualLightChoice::Grouped : VirtualLightChoice::Strongest;
+            }),
+        light("--virtual-near", "SHAPE",
+              "Near by they are a rectangle (default), a disk or a point, which has a singularity",
+              [&p](const std::string& text) {
+                  if (text != "rectangle" && text != "disk" && text != "point")
+                      throw UsageError(fmt::format("expected rectangle, disk or point, found '{}'", text));
+                  p.lights.near = text == "point"  ? NearLight::Point
+                                  : text == "disk" ? NearLight::Disk
+                                                   : NearLight::Rectangle;
+              }),
+        light("--elements", "N", "That surfaces are cut into, at least (default 32768)",
+              integerInto([&p](long long v) { p.lights.elements.least = static_cast<int>(v); }, 1, 1 << 22)),
+        {"--specular", "METHOD",
+         "Mirrors and panes by views (default; planar ones), or traced: rays on the CPU, curved ones too",
+         [&p](const std::string& text) {
+             if (text != "views" && text != "traced")
+                 throw UsageError(fmt::format("expected views or traced, found '{}'", text));
+             p.traced = text == "traced";
+         }},
+        {"--stages", "", "Write each stage beside the output, and with --reference its truth", into(p.stages)}};
+    for (Option& option : pipeOptions(p.pipes)) out.push_back(std::move(option));
+    return out;
+}
+
+/// Every name that the pictures get: those of stages, their truths and differences.
+static std::vector<std::string> outputsOf(const HybridPictures& p, const std::string& ending) {
+    std::vector<std::string> out;
+    for (const char* stage : {"direct", "indirect", "traced", ""}) {
+        const std::string name = stage;
+        if (!name.empty() && !p.stages) continue;
+        if ((name == "indirect" && !p.indirect) || (name == "traced" && !p.traced)) continue;
+        out.push_back(name.empty() ? p.output : besideName(p.output, stage, ending));
+        if (!p.reference) continue;
+        const std::string prefix = name.empty() ? "" : name + "-";
+        out.push_back(besideName(p.output, (prefix + "reference").c_str(), ending));
+        out.push_back(besideName(p.output, (prefix + "difference").c_str(), ".png"));
+    }
+    return out;
+}
+
+static void writeStages(const HybridPictures& p, const std::vector<Stage>& stages, double white,
+                        const std::string& ending) {
+    PictureSet pictures;
+    for (const Stage& stage : stages) {
+        const bool last = &stage == &stages.back();
+        if (!p.stages && !last) continue;
+        pictures.add(stage.drawn, last ? p.output : besideName(p.output, stage.name.c_str(), ending), white);
+        if (!p.reference) continue;
+        const std::string prefix = last ? "" : stage.name + "-";
+        pictures.add(stage.traced, besideName(p.output, (prefix + "reference").c_str(), ending), white);
+        pictures.add(differenceImage(stage.drawn, stage.traced, white, 0.2),
+                     besideName(p.output, (prefix + "difference").c_str(), ".png"), 1);
+    }
+    pictures.finish();
 }
 
 void renderHybrid(const Context& context, SceneDescription scene, const HybridPictures& p) {
     const Progress progress = terminalProgress(context.quiet);
+    RenderPipes pipes(context, p.pipes);
+    const std::string ending = pictureEnding(p.output);
+    if (pipes.leads())
+        for (const std::string& output : outputsOf(p, ending))
+            requireWritable(p.scene, output, provisionalName(output), "");
     const nacre::Context gl(GlApi::Core33);
     ProgramLoader loader;
     HybridRenderer renderer(loader, scene, materialsOf(scene));
     renderer.direct().switches = p.switches;
+    const int n = p.shot.samples;
+    FrameRequest request{n * p.shot.width, n * p.shot.height, {}, p.shot.time};
+    if (p.indirect) request.options.virtualLights = p.lights;
+    request.options.traced = p.traced;
+    if (p.shadows) request.options.shadows = {*p.shadows, p.switches.lightPoints};
+    if (!pipes.leads()) return pipes.serve(renderer, request);
     report(progress, "drawing", 0);
     const Stopwatch watch;
-    const int n = p.shot.samples;
-    HybridOptions options;
-    if (p.indirect) options.virtualLights = p.lights;
-    options.traced = p.traced;
-    if (p.shadows) options.shadows = {*p.shadows, p.switches.lightPoints};
-    const auto draw = [&] { return renderer.draw(n * p.shot.width, n * p.shot.height, options, p.shot.time); };
-    const HybridPicture drawn = draw();
+    const PipedFrame piped = pipes.draw(renderer, request);
+    const HybridPicture& drawn = piped.frame.picture;
     json data = {{"output", p.output},
                  {"width", p.shot.width},
                  {"height", p.shot.height},
@@ -212,32 +278,22 @@ void renderHybrid(const Context& context, SceneDescription scene, const HybridPi
                  {"seconds", watch.seconds()},
                  {"cpu_seconds", watch.cpuSeconds()},
                  {"renderer", gl.description()}};
-    data.update(reportJson(renderer.report(), p));
-    if (p.repeats > 0) data["repeated"] = repeatedJson(renderer, draw, p.repeats);
+    data.update(reportJson(piped.frame.report, p));
+    if (!piped.data.is_null()) data["pipes"] = piped.data;
+    if (p.pipes.repeat > 0 && piped.data.is_null()) {
+        const auto draw = [&] { return renderer.draw(request.width, request.height, request.options, request.time); };
+        data["repeated"] = repeatedJson(renderer, draw, p.pipes.repeat);
+    }
     std::vector<Stage> stages{{"direct", shrunk(drawn.direct, n), {}}};
     if (p.indirect) stages.push_back({"indirect", shrunk(drawn.indirect, n), {}});
-    if (renderer.report().traced.pixels > 0) stages.push_back({"traced", shrunk(drawn.traced, n), {}});
+    if (piped.frame.report.traced.pixels > 0) stages.push_back({"traced", shrunk(drawn.traced, n), {}});
     stages.push_back({"blended", shrunk(drawn.blended, n), {}});
+    if (p.reference) data["errors"] = compareStages(scene, p, stages, progress);
     const Stage& whole = stages.back();
-    const std::string ending = pictureEnding(p.output);
-    double white = p.white > 0 ? p.white : pictureWhite(whole.drawn);
-    writePicture(whole.drawn, p.output, white);  // before the trace: what can't be written fails now
-    if (p.reference) {
-        data["errors"] = compareStages(scene, p, stages, progress);
-        if (p.white <= 0) white = pictureWhite(whole.traced);
-        writePicture(whole.drawn, p.output, white);  // both with one white
-    }
     endProgress();
-    for (const Stage& stage : stages) {
-        const bool last = &stage == &whole;
-        if (p.stages && !last) writePicture(stage.drawn, besideName(p.output, stage.name.c_str(), ending), white);
-        if (!p.reference || (!p.stages && !last)) continue;
-        const std::string prefix = last ? "" : stage.name + "-";
-        writePicture(stage.traced, besideName(p.output, (prefix + "reference").c_str(), ending), white);
-        writePng(differenceImage(stage.drawn, stage.traced, white, 0.2),
-                 besideName(p.output, (prefix + "difference").c_str(), ".png"));
-    }
+    writeStages(p, stages, p.white > 0 ? p.white : pictureWhite(p.reference ? whole.traced : whole.drawn), ending);
     putData(p.asJson ? data.dump(2) + "\n" : textOf(data));
+    if (!piped.lacking.empty()) throw Error(piped.lacking);
 }
 
 }  // namespace nacre::cli

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "cli/render_pipes.hpp"
 #include "cli/scene_errors.hpp"
 #include "cli/verb.hpp"
 #include "shading/hybrid/hybrid_renderer.hpp"
@@ -11,7 +12,7 @@
 namespace nacre::cli {
 
 struct HybridPictures {
-    std::string output;
+    std::string scene, output;
     SceneShot shot;
     double white = 0;  ///< 0: of the picture
     int rays = 4;
@@ -20,15 +21,18 @@ struct HybridPictures {
     bool indirect = false;                       ///< by virtual lights
     bool traced = false;                         ///< specular pixels
     std::optional<SampledShadowMethod> shadows;  ///< as levels of each pixel; points: switches.lightPoints
-    int repeats = 0;                             ///< frames drawn again, for their time
     bool stages = false;                         ///< each a picture beside the output
     VirtualLightOptions lights;
+    std::string dependent;  ///< the first option given that needs --indirect
+    PipeSettings pipes;
 };
 
 /// Options that only such pictures have. \param p  outlives them
 std::vector<Option> hybridOptions(HybridPictures& p);
 
 bool isHybrid(const HybridPictures& p);
+/// \throws UsageError for options that nothing would read
+void checkHybrid(const HybridPictures& p);
 
 /// Draws, writes and prints; with p.reference traces the same stages (reference/scene_components.hpp).
 void renderHybrid(const Context& context, SceneDescription scene, const HybridPictures& p);

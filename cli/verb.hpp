@@ -33,8 +33,9 @@ struct Verb {
 
 /// What every verb shares.
 struct Context {
-    std::string commandLine;  ///< as typed, quoted for a shell
-    bool quiet = false;       ///< no progress
+    std::string commandLine;             ///< as typed, quoted for a shell
+    std::vector<std::string> arguments;  ///< as typed, without the program's name
+    bool quiet = false;                  ///< no progress
 };
 
 Verb modelsVerb(Context& context);

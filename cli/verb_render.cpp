@@ -10,6 +10,7 @@
 #include "cli/output_file.hpp"
 #include "cli/pass_list.hpp"
 #include "cli/picture_output.hpp"
+#include "cli/picture_set.hpp"
 #include "cli/render_hybrid.hpp"
 #include "cli/render_transfer.hpp"
 #include "cli/scene_errors.hpp"
@@ -18,7 +19,6 @@
 #include "cli/verb.hpp"
 #include "core/error.hpp"
 #include "shading/context.hpp"
-#include "shading/image_output.hpp"
 #include "shading/multipass/quality.hpp"
 #include "shading/multipass/specular_face.hpp"
 #include "shading/scene_file.hpp"
@@ -40,6 +40,7 @@ struct Settings {
     HybridPictures hybrid;      ///< when the scene is drawn in stages
     TransferPictures transfer;  ///< when the scene is a transfer file
     std::string weights;
+    std::string volumesFlag;              ///< the first option given that only shadow volumes have
     std::string sceneFlag, transferFlag;  ///< the first option given that only scenes have, only transfer files
 };
 
@@ -130,7 +131,8 @@ void runHybrid(const Context& context, const Settings& s, SceneDescription scene
         throw UsageError(
             fmt::format("{}: expected --specular traced beside it in a scene with mirrors or panes, found none",
                         p.indirect ? "--indirect" : "--shadows"));
-    p.output = s.output, p.shot = s.shot, p.white = s.white, p.rays = s.rays, p.switches = s.switches;
+    p.scene = s.scene, p.output = s.output, p.shot = s.shot, p.white = s.white, p.rays = s.rays;
+    p.switches = s.switches;
     p.reference = s.reference, p.asJson = s.asJson;
     renderHybrid(context, std::move(scene), p);
 }
@@ -150,6 +152,10 @@ void runRender(const Context& context, const Settings& s) {
     if (!s.transferFlag.empty())
         throw UsageError(
             fmt::format("{}: expected a file that nacre transfer wrote, found {}", s.transferFlag, s.scene));
+    const bool sampled = s.hybrid.shadows && s.volumesFlag == "--light-points";
+    if (!s.volumesFlag.empty() && !sampled && s.switches.shadowMethod != ShadowMethod::Volumes)
+        throw UsageError(s.volumesFlag + ": expected --shadows volumes beside it, found maps");
+    checkHybrid(s.hybrid);
     const std::string ending = s.passes ? "" : pictureEnding(s.output);
     const Progress progress = terminalProgress(context.quiet);
     report(progress, "reading " + s.scene, 0);
@@ -166,6 +172,7 @@ void runRender(const Context& context, const Settings& s) {
     }
     if (isHybrid(s.hybrid)) return runHybrid(context, s, std::move(scene));
     checkPlanar(scene);
+    requireWritable(s.scene, s.output, provisionalName(s.output), "");
     const SceneSwitches switches = switchesFor(s, scene);
     const nacre::Context gl(GlApi::Core33);
     ProgramLoader loader;
@@ -198,20 +205,21 @@ void runRender(const Context& context, const Settings& s) {
     double white = s.white > 0 ? s.white : pictureWhite(picture);
     std::string text = fmt::format("{}: {} x {} pixels of {} samples, {} programs\n", s.output, s.shot.width,
                                    s.shot.height, s.shot.samples * s.shot.samples, renderer.programs().size());
-    writePicture(picture, s.output, white);  // before the trace: what can't be written fails now
+    PictureSet pictures;
     if (s.reference || s.shares) {
         renderer.switches = switches;  // whatever the quality, against all
         const SceneErrors errors = measureScene(renderer, picture, s.shot, s.rays, s.shares, progress);
         if (s.white == 0) white = errors.white;
-        writePicture(errors.reference, besideName(s.output, "reference", ending), white);
-        writePng(differenceImage(picture, errors.reference, errors.white, 0.2),
-                 besideName(s.output, "difference", ".png"));
+        pictures.add(errors.reference, besideName(s.output, "reference", ending), white);
+        pictures.add(differenceImage(picture, errors.reference, errors.white, 0.2),
+                     besideName(s.output, "difference", ".png"), 1);
         data["errors"] = toJson(errors);
         text += errorText(errors);
         endProgress();
         for (const std::string& note : errors.notes) tell(note);
     }
-    if (s.reference || s.shares) writePicture(picture, s.output, white);  // both with one white
+    pictures.add(picture, s.output, white);  // both with one white
+    pictures.finish();
     endProgress();
     putData(s.asJson ? data.dump(2) + "\n" : text);
 }
@@ -231,6 +239,9 @@ constexpr const char* kDetails =
     "With --indirect virtual-lights or --specular traced a scene is drawn in stages: direct light, light that "
     "surfaces\n"
     "reflected once, mirrors and glass by rays on the processor. --reference then traces one such reflection.\n"
+    "With --pipes or --mpi several processes draw them together: lamps' points (with --shadows volumes) and virtual\n"
+    "lights. One that dies or is late is left out: if the last frame lacks its light, the exit code is 1.\n"
+    "  mpirun -n 2 nacre render office.json -o office.png --indirect virtual-lights --shadows volumes --mpi\n"
     "A file of nacre transfer holds its mesh: its frames are drawn by their vertices' radiance (albedo 1, back faces\n"
     "black) in the light of --env, turned and blended, with the first frame's white. With --reference the same\n"
     "vertices' transfer comes from rays.\n"
@@ -269,11 +280,14 @@ std::vector<Option> sceneOptions(const std::shared_ptr<Settings>& s) {
               })},
         {"--light-points", "N", "Points of a light's area, not with maps: 1 to 63 (default 16)",
          only(s->sceneFlag, "--light-points",
-              integerInto([s](long long v) { s->switches.lightPoints = static_cast<int>(v); }, 1, 63))},
+              only(s->volumesFlag, "--light-points",
+                   integerInto([s](long long v) { s->switches.lightPoints = static_cast<int>(v); }, 1, 63)))},
         {"--soft", "METHOD",
          "With volumes, of a light's area: regenerated (default), pivot (volumes of its middle swept from each\n"
          "point) or levels (the middle's light dimmed by the count)",
-         only(s->sceneFlag, "--soft", [s](const std::string& text) { s->switches.softShadows = softShadowsOf(text); })},
+         only(s->sceneFlag, "--soft",
+              only(s->volumesFlag, "--soft",
+                   [s](const std::string& text) { s->switches.softShadows = softShadowsOf(text); }))},
         {"--radiosity", "", "Add light that bounced between meshes, as colours of their vertices; the reference too",
          only(s->sceneFlag, "--radiosity", into(s->shot.interreflection))},
         {"--shares", "", "Each approximation's share of a scene's error; implies --reference",

@@ -21,7 +21,7 @@ struct Slot {
 static_assert(std::atomic<int>::is_always_lock_free);
 
 // Global because a signal handler has no arguments of its own.
-std::array<Slot, 8> slots;
+std::array<Slot, 32> slots;
 
 extern "C" void removeAndEnd(int signal) {
     for (Slot& slot : slots)

@@ -151,7 +151,8 @@ const std::vector<NamedExhibit>& hybridExhibits() {
     static const std::vector<NamedExhibit> kExhibits = {{"hybrid-stages", stages},
                                                         {"virtual-lights", virtualLights},
                                                         {"counted-shadows", countedShadowsExhibit},
-                                                        {"counted-soft-shadows", softCountedExhibit}};
+                                                        {"counted-soft-shadows", softCountedExhibit},
+                                                        {"pipes", pipesExhibit}};
     return kExhibits;
 }
 

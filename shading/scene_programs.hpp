@@ -8,6 +8,7 @@
 
 #include "bump/height_map.hpp"
 #include "core/asset.hpp"
+#include "core/draw_share.hpp"
 #include "core/environment.hpp"
 #include "core/scene_description.hpp"
 #include "shading/gl_objects.hpp"
@@ -41,6 +42,7 @@ struct SceneSwitches {
     ShadowMethod shadowMethod = ShadowMethod::Maps;
     SoftShadows softShadows = SoftShadows::Regenerated;  ///< with volumes
     int lightPoints = 16;                                ///< of an area, 1 to 63
+    DrawShare share{};                                   ///< with volumes, of lamps' points; without, the first has all
     GlName lightLevels = 0;  ///< with Levels: an R32F array texture of the target's size, a layer a light; 0: none
     bool relief = true;      ///< bumped normals, and all of a relief's light
     std::optional<BumpShadow> reliefShadow{};  ///< instead of the materials' own, where the asset has it

@@ -51,6 +51,13 @@ struct Draw {
     double nearest = 0;  ///< depth of the nearest point of its bounding sphere
 };
 
+/// Of a share that isn't the first: the light of lamps whose shadows are counted, on black.
+SceneSwitches sharedAlone(SceneSwitches on) {
+    on.lamps = on.lamps && countsShadows(on);
+    on.ambient = on.surrounding = on.sky = false;
+    return on;
+}
+
 Mat3 turnedByY(double angle) { return Mat3(glm::rotate(glm::dmat4(1), angle, Vec3(0, 1, 0))); }
 
 }  // namespace
@@ -388,7 +395,8 @@ struct SceneRenderer::State {
         if (!volumes.empty()) clock("volumes", [&] { drawVolumes(frame, view); });
     }
 
-    void render(const RenderTarget& target, const Camera& camera, double time, const SceneSwitches& on) {
+    void render(const RenderTarget& target, const Camera& camera, double time, const SceneSwitches& given) {
+        const SceneSwitches on = given.share.first() ? given : sharedAlone(given);
         const std::vector<glm::dmat4> nodes = nodeTransforms(scene, time);
         const std::vector<Light> lights = lightsInWorld(scene, nodes);
         checkLights(lights, kMaxLights);
@@ -398,7 +406,15 @@ struct SceneRenderer::State {
         if (mapsShadows(on) && on.lamps) clock("shadow maps", [&] { updateShadows(camera, aspect, nodes, lights); });
         const Frame frame = frameOf(on, camera, nodes, lights);
         const Bounds box = sceneBox(frame.nodes);
-        const std::vector<ShadowedLamp> lamps = shadowedLamps(scene, on, nodes, lights);
+        std::vector<ShadowedLamp> lamps = shadowedLamps(scene, on, nodes, lights);
+        // Without the light of lamps that passes add.
+        std::vector<Light> unshadowed = lights;
+        SceneSwitches rest = on;
+        if (countsShadows(on)) {
+            for (const ShadowedLamp& lamp : lamps) unshadowed[lamp.light].color = Rgb(0);
+            rest.lamps = on.share.first() && lamps.size() < lights.size();
+            keepShare(lamps, on);
+        }
         std::vector<SpecularFace> specular = specularFaces(scene, nodes);
         ScheduleInput input{camera, target.width(), target.height(), box.low, box.high, {}};
         input.lights = scheduledLights(scene, on, lamps, specular);
@@ -409,13 +425,6 @@ struct SceneRenderer::State {
                 if (!shadowVolumes) shadowVolumes.emplace(scene);
                 passes.emplace(loader, *shadowVolumes, on, lamps, schedule.faces, schedule.lights, nodes);
             });
-        // Without the light of lamps that passes add.
-        std::vector<Light> unshadowed = lights;
-        SceneSwitches rest = on;
-        if (countsShadows(on)) {
-            for (const ShadowedLamp& lamp : lamps) unshadowed[lamp.light].color = Rgb(0);
-            rest.lamps = lamps.size() < lights.size();
-        }
         const Frame surfaces = frameOf(rest, camera, nodes, unshadowed);
         std::vector<FaceMesh> faces;
         for (const SpecularFace& face : schedule.faces)

@@ -2,7 +2,10 @@
 // lights, and specular pixels by rays on the CPU, at the same time.
 #pragma once
 
+#include <future>
+
 #include "shading/hybrid/indirect_pass.hpp"
+#include "shading/hybrid/pipe_crew.hpp"
 #include "shading/hybrid/reflected_power.hpp"
 #include "shading/hybrid/sampled_shadows.hpp"
 #include "shading/hybrid/traced_pixels.hpp"
@@ -41,11 +44,18 @@ struct HybridReport {
     double clamped = 0;             ///< share of points' light in the picture that a bounded singularity took away
     TracedReport traced{};
     std::vector<PassTime> stages;  ///< wall seconds between two glFinish; gpuSeconds isn't measured
+    double shadowSeconds = 0;      ///< of the direct stage: making and counting volumes, and the light outside them
+    std::vector<double> pipes;     ///< seconds that each drew; below 0: its part is lacking; NaN: it had none
 };
 
 /// Images of three channels, the size that was asked for. What wasn't asked for is black.
 struct HybridPicture {
     Image direct, indirect, traced, blended;
+};
+
+struct HybridFrame {
+    HybridPicture picture;
+    HybridReport report;
 };
 
 /// The context that was current in the constructor must be current in every call.
@@ -62,14 +72,25 @@ public:
     /// All stages of the scene as it stands at `time`. Rays are followed in a thread of their own while the rest is
     /// drawn. \throws as sceneElements, chooseVirtualLights and SpecularTracer; std::invalid_argument for sizes < 1
     HybridPicture draw(int width, int height, const HybridOptions& options, double time = 0);
+    /// The same by a crew's pipes, in the leader; the others call drawShare. Returns when everything is drawn: what
+    /// ends the frame on the CPU runs in a thread of its own, and may be waited for after the next frame was started.
+    /// \param crew  begun, outlives the frame
+    std::future<HybridFrame> start(int width, int height, const HybridOptions& options, double time, PipeCrew& crew);
+    /// One of the other pipes' part. \param options, width, height  the leader's
+    void drawShare(int width, int height, const HybridOptions& options, double time, PipeCrew& crew);
     /// Of the last picture.
     const HybridReport& report() const { return report_; }
     const std::vector<VirtualPointLight>& virtualLights() const { return lights_.lights; }
 
 private:
+    struct Drawing;
     void stage(const char* name, const std::function<void()>& work);
-    void placeVirtualLights(const VirtualLightOptions& options, const std::vector<glm::dmat4>& nodes);
-    Image drawIndirect(const GeometryBuffer& geometry, const VirtualLightOptions& options);
+    void placeVirtualLights(const VirtualLightOptions& options, const std::vector<glm::dmat4>& nodes, PipeCrew* crew);
+    void drawShadowMaps(const VirtualLightOptions& options, const std::vector<glm::dmat4>& nodes,
+                        std::span<const VirtualPointLight> lights);
+    void drawLight(const Drawing& drawing, const DrawShare& share);
+    std::function<CompositedFrame()> drawAll(Drawing& drawing, PipeCrew* crew);
+    static HybridFrame finish(Drawing& drawing, const CompositedFrame& composited);
     TracedLight lightOfEnds(const HybridOptions& options, const std::vector<glm::dmat4>& nodes) const;
 
     ProgramLoader& loader_;

@@ -42,13 +42,19 @@ std::vector<LightPlane> planesOf(const Light& light, const Bounds& scene) {
     return out;
 }
 
-class PowerSum {
+class SourcePower {
 public:
-    PowerSum(ProgramLoader& loader, const GpuElements& gpu, const SceneElements& elements, int size)
-        : loader_(loader), gpu_(gpu), elements_(elements), buffer_(size), power_(elements.elements.size(), Rgb(0)) {}
+    SourcePower(ProgramLoader& loader, const GpuElements& gpu, const SceneElements& elements, int size)
+        : loader_(loader), gpu_(gpu), elements_(elements), buffer_(size) {}
 
-    void add(const Light& light) {
-        if (light.directional) return addDirectional(light);
+    ElementPower of(const Light& light) {
+        power_.assign(elements_.elements.size(), Rgb(0));
+        light.directional ? addDirectional(light) : addPoint(light);
+        return std::move(power_);
+    }
+
+private:
+    void addPoint(const Light& light) {
         for (const LightPlane& plane : planesOf(light, elements_.bounds)) {
             if (factors_.empty() || plane.halfWidth != halfWidth_)
                 factors_ = planeFactors(buffer_.size(), halfWidth_ = plane.halfWidth, PlaneSource::Uniform);
@@ -62,9 +68,6 @@ public:
         }
     }
 
-    std::vector<Rgb> power() && { return std::move(power_); }
-
-private:
     /// Of a pixel's middle.
     Vec3 directionOf(const LightPlane& plane, std::size_t pixel) const {
         const auto size = static_cast<std::size_t>(buffer_.size());
@@ -96,25 +99,41 @@ private:
     ItemBuffer buffer_;
     std::vector<double> factors_;
     double halfWidth_ = 0;
-    std::vector<Rgb> power_;
+    ElementPower power_;
 };
 
 }  // namespace
 
-std::vector<Rgb> reflectedPower(ProgramLoader& loader, const GpuElements& gpu, const SceneElements& elements,
-                                const SceneDescription& scene, const std::vector<glm::dmat4>& nodes,
-                                const ReflectedPowerOptions& options) {
-    if (elements.elements.empty()) return {};
-    PowerSum sum(loader, gpu, elements, options.size);
+std::vector<ElementPower> powerOfSources(ProgramLoader& loader, const GpuElements& gpu, const SceneElements& elements,
+                                         const SceneDescription& scene, const std::vector<glm::dmat4>& nodes,
+                                         const ReflectedPowerOptions& options, const DrawShare& share) {
+    std::vector<Light> sources;
     const std::vector<Light> lights = lightsInWorld(scene, nodes);
     const auto areas = areasInWorld(scene, nodes);
     for (std::size_t i = 0; i < lights.size(); ++i) {
-        if (!areas[i])
-            sum.add(lights[i]);
-        else
-            for (const Light& point : pointsOfArea(lights[i], *areas[i], options.lightPoints)) sum.add(point);
+        const std::vector<Light> points =
+            areas[i] ? pointsOfArea(lights[i], *areas[i], options.lightPoints) : std::vector{lights[i]};
+        sources.insert(sources.end(), points.begin(), points.end());
     }
-    return std::move(sum).power();
+    std::vector<ElementPower> out(sources.size());
+    if (elements.elements.empty()) return out;
+    SourcePower power(loader, gpu, elements, options.size);
+    for (std::size_t i = 0; i < sources.size(); ++i)
+        if (share.takes(i)) out[i] = power.of(sources[i]);
+    return out;
+}
+
+ElementPower sumOfSources(std::span<const ElementPower> sources, std::size_t elements) {
+    ElementPower out(elements, Rgb(0));
+    for (const ElementPower& source : sources)
+        for (std::size_t i = 0; i < source.size(); ++i) out[i] += source[i];
+    return out;
+}
+
+ElementPower reflectedPower(ProgramLoader& loader, const GpuElements& gpu, const SceneElements& elements,
+                            const SceneDescription& scene, const std::vector<glm::dmat4>& nodes,
+                            const ReflectedPowerOptions& options) {
+    return sumOfSources(powerOfSources(loader, gpu, elements, scene, nodes, options, {}), elements.elements.size());
 }
 
 }  // namespace nacre

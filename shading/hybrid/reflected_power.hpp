@@ -1,6 +1,9 @@
 // What each element reflects of the light that lamps bring (HYBRID section 3): item buffers from the lamps.
 #pragma once
 
+#include <span>
+
+#include "core/draw_share.hpp"
 #include "shading/hybrid/item_buffer.hpp"
 
 namespace nacre {
@@ -15,8 +18,17 @@ struct ReflectedPowerOptions {
 /// 60° about its axis is one plane, a point or wider spot six, as lights here shine alike in all directions of theirs;
 /// what pixels can't resolve is lost or won as in any picture. Everything blocks light, be it marked as casting shadows
 /// or not. O(lights · points · planes · (elements + size²))
-std::vector<Rgb> reflectedPower(ProgramLoader& loader, const GpuElements& gpu, const SceneElements& elements,
-                                const SceneDescription& scene, const std::vector<glm::dmat4>& nodes,
-                                const ReflectedPowerOptions& options = {});
+using ElementPower = std::vector<Rgb>;
+ElementPower reflectedPower(ProgramLoader& loader, const GpuElements& gpu, const SceneElements& elements,
+                            const SceneDescription& scene, const std::vector<glm::dmat4>& nodes,
+                            const ReflectedPowerOptions& options = {});
+
+/// The same of each source: a light, or a point of one with an area. Empty for those that the share leaves.
+std::vector<ElementPower> powerOfSources(ProgramLoader& loader, const GpuElements& gpu, const SceneElements& elements,
+                                         const SceneDescription& scene, const std::vector<glm::dmat4>& nodes,
+                                         const ReflectedPowerOptions& options, const DrawShare& share);
+
+/// Of all sources, in order. \param elements  how many; sources that are empty give nothing
+ElementPower sumOfSources(std::span<const ElementPower> sources, std::size_t elements);
 
 }  // namespace nacre

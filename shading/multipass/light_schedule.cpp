@@ -42,6 +42,19 @@ std::vector<ShadowedLamp> shadowedLamps(const SceneDescription& scene, const Sce
     return out;
 }
 
+void keepShare(std::vector<ShadowedLamp>& lamps, const SceneSwitches& on) {
+    const bool whole = on.softShadows == SoftShadows::Levels;
+    std::size_t index = 0;
+    for (ShadowedLamp& lamp : lamps) {
+        std::vector<Light> kept;
+        if (whole && on.share.takes(index++)) kept = lamp.points;
+        for (std::size_t k = 0; !whole && k < lamp.points.size(); ++k)
+            if (on.share.takes(index++)) kept.push_back(lamp.points[k]);
+        lamp.points = std::move(kept);
+    }
+    std::erase_if(lamps, [](const ShadowedLamp& lamp) { return lamp.points.empty(); });
+}
+
 std::vector<ScheduledLight> scheduledLights(const SceneDescription& scene, const SceneSwitches& on,
                                             const std::vector<ShadowedLamp>& lamps,
                                             const std::vector<SpecularFace>& faces) {

@@ -19,6 +19,10 @@ struct ShadowedLamp {
 std::vector<ShadowedLamp> shadowedLamps(const SceneDescription& scene, const SceneSwitches& on,
                                         const std::vector<glm::dmat4>& nodes, const std::vector<Light>& lights);
 
+/// The points that a share takes, or with SoftShadows::Levels the lamps: what counts at once can't be parted. Lamps
+/// without points go.
+void keepShare(std::vector<ShadowedLamp>& lamps, const SceneSwitches& on);
+
 /// Whether lamps' own light is added by passes: with volumes.
 bool countsShadows(const SceneSwitches& on);
 

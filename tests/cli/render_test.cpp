@@ -21,6 +21,7 @@ using ::testing::HasSubstr;
 using tests::nacre;
 using tests::Outcome;
 using tests::Scratch;
+using tests::Surroundings;
 
 /// Two squares, one lit from the side, and a spot with a shadow: no asset to bake.
 std::string sceneFile(const Scratch& scratch) {
@@ -242,6 +243,7 @@ TEST(CommandRender, InStages) {
     const Outcome views = nacre({"render", scene, "-o", scratch / "v.png"});
     EXPECT_EQ(views.code, 1) << "views of planar mirrors alone";
     EXPECT_THAT(views.err, HasSubstr("--specular traced draws curved meshes"));
+    refused({"--elements", "16777216", "--specular", "traced"}, "--elements: expected a whole number 1 to 4194304");
     const Outcome sampled = nacre({"render", scene, "-o", scratch / "l.png", "--size", "48x48", "--samples", "1",
                                    "--shadows", "sampled", "--specular", "traced", "--repeat", "2", "--json"});
     ASSERT_EQ(sampled.code, 0) << sampled.err;
@@ -253,11 +255,6 @@ TEST(CommandRender, InStages) {
                 HasSubstr("--shadows: expected --specular traced beside it"));
     EXPECT_THAT(nacre({"render", scene, "-o", scratch / "l.png", "--shadows", "soft"}).err,
                 HasSubstr("expected maps, volumes, sampled-maps, sampled-volumes or sampled, found 'soft'"));
-    const Outcome many = nacre({"render", scene, "-o", scratch / "m.png", "--indirect", "virtual-lights", "--elements",
-                                "16777216", "--specular", "traced"});
-    EXPECT_EQ(many.code, 1);
-    EXPECT_THAT(many.err, HasSubstr("item buffer: expected at most 16777215 elements, which 24 bits tell apart"));
-    EXPECT_FALSE(std::filesystem::exists(scratch / "m.png"));
     for (const auto& [flag, words] : {std::pair{"--indirect", "virtual-lights"},
                                       {"--specular", "views or traced"},
                                       {"--virtual-choice", "grouped or strongest"},
@@ -266,6 +263,49 @@ TEST(CommandRender, InStages) {
         EXPECT_EQ(wrong.code, 2);
         EXPECT_THAT(wrong.err, HasSubstr(words));
     }
+}
+
+TEST(CommandRender, OptionsThatNothingReadsAreRefused) {
+    const Scratch scratch;
+    const std::string scene = sceneFile(scratch), output = scratch / "a.png";
+    const std::vector<std::pair<std::vector<std::string>, std::string>> cases = {
+        {{"--stages"}, "--stages: expected --indirect virtual-lights or --specular traced"},
+        {{"--virtual-lights", "3"}, "--virtual-lights: expected --indirect virtual-lights"},
+        {{"--virtual-shadows", "--specular", "traced"}, "--virtual-shadows: expected --indirect virtual-lights"},
+        {{"--virtual-choice", "grouped"}, "--virtual-choice: expected --indirect virtual-lights"},
+        {{"--virtual-near", "disk"}, "--virtual-near: expected --indirect virtual-lights"},
+        {{"--elements", "100"}, "--elements: expected --indirect virtual-lights"},
+        {{"--soft", "pivot"}, "--soft: expected --shadows volumes"},
+        {{"--light-points", "4", "--shadows", "maps"}, "--light-points: expected --shadows volumes"}};
+    for (const auto& [more, words] : cases) {
+        std::vector<std::string> all = {"render", scene, "-o", output};
+        all.insert(all.end(), more.begin(), more.end());
+        const Outcome run = nacre(all);
+        EXPECT_EQ(run.code, 2) << run.err;
+        EXPECT_THAT(run.err, HasSubstr(words));
+        EXPECT_FALSE(std::filesystem::exists(output));
+    }
+}
+
+TEST(CommandRender, PicturesThatBelongTogetherAppearTogether) {
+    const Scratch scratch;
+    std::filesystem::create_directory(scratch / "s-indirect.png");  // in the way of one
+    const std::string scene = sceneFile(scratch);
+    const Outcome run = nacre(
+        {"render", scene, "-o", scratch / "s.png", "--size", "16x16", "--indirect", "virtual-lights", "--stages"});
+    EXPECT_EQ(run.code, 1);
+    EXPECT_THAT(run.err, HasSubstr("s-indirect.png: can't write"));
+    EXPECT_FALSE(std::filesystem::exists(scratch / "s.png"));
+    EXPECT_FALSE(std::filesystem::exists(scratch / "s-direct.png"));
+    std::filesystem::remove(scratch / "s-indirect.png");
+    Surroundings small;
+    small.fileSize = 6000;  // PNG of noise-free stages fits, EXR of 64 x 64 floats doesn't
+    const Outcome full =
+        nacre({"render", scene, "-o", scratch / "s.exr", "--size", "64x64", "--indirect", "virtual-lights", "--stages"},
+              small);
+    EXPECT_NE(full.code, 0);
+    for (const auto& entry : std::filesystem::directory_iterator(scratch / "."))
+        EXPECT_EQ(entry.path().filename().string(), "scene.json") << "nothing half-written";
 }
 
 TEST(CommandRender, MeshFilesAndEmptyScenes) {

@@ -222,6 +222,7 @@ std::vector<ProgramCase> programs() {
         {"stencil_volume.vert.glsl", "counted_volume.frag.glsl", {{{"NACRE_STENCIL_BEYOND_NEAR", "1"}}}, true});
     out.push_back({"fullscreen.vert.glsl", "counted_add.frag.glsl", {{}}});
     out.push_back({"fullscreen.vert.glsl", "counted_mask.frag.glsl", {{}}});
+    out.push_back({"fullscreen.vert.glsl", "pipe_add.frag.glsl", {{}}});
     out.push_back({"fullscreen.vert.glsl",
                    "shadow_filter.frag.glsl",
                    {{{"NACRE_FILTER_RADIUS", "3"}, {"NACRE_EDGE_STOPPING", "0"}},
