@@ -52,6 +52,9 @@ Exhibit transferGlossExhibit(const Task& task);
 /// transfer_objects_exhibit.cpp
 Exhibit transferObjectsExhibit(const Task& task);
 
+/// room_exhibit.cpp
+Exhibit roomsExhibit(const Task& task);
+
 /// pipes_exhibit.cpp
 Exhibit pipesExhibit(const Task& task);
 

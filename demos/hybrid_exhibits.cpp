@@ -152,6 +152,7 @@ const std::vector<NamedExhibit>& hybridExhibits() {
                                                         {"virtual-lights", virtualLights},
                                                         {"counted-shadows", countedShadowsExhibit},
                                                         {"counted-soft-shadows", softCountedExhibit},
+                                                        {"rooms", roomsExhibit},
                                                         {"pipes", pipesExhibit}};
     return kExhibits;
 }
