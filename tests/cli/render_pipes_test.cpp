@@ -168,13 +168,25 @@ TEST(CommandRenderPipes, RefusesWhatDoesNotFit) {
 
 #ifdef NACRE_MPIRUN
 /// On this machine alone, by shared memory, with no shell that starts something elsewhere.
-Outcome ranks(int count, const std::vector<std::string>& arguments) {
-    const Scratch io;
+std::string startOf(int count, const std::string& program) {
     std::string line = "OMPI_MCA_plm=isolated OMPI_MCA_btl=self,vader OMPI_MCA_btl_vader_single_copy_mechanism=none ";
 #ifdef __SANITIZE_ADDRESS__
     line += "ASAN_OPTIONS=detect_leaks=0 ";  // Open MPI keeps what it allocates
 #endif
-    line += NACRE_MPIRUN " --allow-run-as-root --oversubscribe -n " + std::to_string(count) + " " NACRE_COMMAND;
+    return line + NACRE_MPIRUN " --allow-run-as-root --oversubscribe -n " + std::to_string(count) + " " + program;
+}
+
+class MpiRanks : public ::testing::Test {
+protected:
+    void SetUp() override {
+        if (std::system((startOf(2, "true") + " > /dev/null 2>&1").c_str()) != 0)
+            GTEST_SKIP() << "mpirun starts nothing on this machine";
+    }
+};
+
+Outcome ranks(int count, const std::vector<std::string>& arguments) {
+    const Scratch io;
+    std::string line = startOf(count, NACRE_COMMAND);
     for (const std::string& argument : arguments) line += " '" + argument + "'";
     line += " > " + (io / "out").string() + " 2> " + (io / "err").string() + " < /dev/null";
     Outcome out;
@@ -185,7 +197,7 @@ Outcome ranks(int count, const std::vector<std::string>& arguments) {
     return out;
 }
 
-TEST(CommandRenderPipes, MpiRanksDrawThePictureOfOne) {
+TEST_F(MpiRanks, DrawThePictureOfOne) {
     const Scratch scratch;
     ASSERT_EQ(nacre(rendering(scratch, "alone.exr", {})).code, 0);
     for (const int count : {1, 2, 3})
@@ -198,7 +210,7 @@ TEST(CommandRenderPipes, MpiRanksDrawThePictureOfOne) {
         }
 }
 
-TEST(CommandRenderPipes, AnMpiRankThatFailsEndsAll) {
+TEST_F(MpiRanks, OneThatFailsEndsAll) {
     const Scratch scratch;
     const Outcome run =
         ranks(2, {"render", "/nowhere/scene.json", "-o", scratch / "a.png", "--indirect", "virtual-lights", "--mpi"});
