@@ -2,14 +2,13 @@
 #include <fmt/format.h>
 
 #include "demos/exhibit_task.hpp"
+#include "demos/hybrid_parts.hpp"
 #include "demos/picture.hpp"
 #include "reference/albedo.hpp"
 #include "reference/scene_components.hpp"
-#include "shading/hybrid/hybrid_renderer.hpp"
 #include "shading/scene_file.hpp"
 
 namespace nacre {
-namespace {
 
 HybridMaterials materialsOf(const SceneTruths& truths) {
     HybridMaterials out;
@@ -19,6 +18,8 @@ HybridMaterials materialsOf(const SceneTruths& truths) {
     }
     return out;
 }
+
+namespace {
 
 /// A scene drawn in stages beside its traced stages.
 class Study {

@@ -3,10 +3,9 @@
 
 #include "core/error.hpp"
 #include "demos/exhibit_task.hpp"
+#include "demos/hybrid_parts.hpp"
 #include "demos/picture.hpp"
-#include "reference/albedo.hpp"
 #include "reference/scene_components.hpp"
-#include "shading/hybrid/hybrid_renderer.hpp"
 #include "shading/scene_file.hpp"
 
 namespace nacre {
@@ -22,15 +21,6 @@ std::optional<SceneDescription> openRoom(const Task& task, const std::string& fi
         task.notes.emplace_back(error.what());
         return std::nullopt;
     }
-}
-
-HybridMaterials materialsOf(const SceneTruths& truths) {
-    HybridMaterials out;
-    for (const MaterialTruth& m : truths.materials) {
-        out.brdfs.push_back(m.brdf);
-        out.albedos.push_back(m.brdf ? directionalAlbedo(m.brdf, {std::sqrt(0.5), 0, std::sqrt(0.5)}) : Rgb(0));
-    }
-    return out;
 }
 
 std::size_t trianglesOf(const SceneDescription& scene) {

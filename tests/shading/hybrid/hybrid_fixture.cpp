@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "factorize/models/models.hpp"
 #include "shading/primitives.hpp"
 
 namespace nacre::test {
@@ -41,6 +42,14 @@ void addLight(SceneDescription& scene, const Light& light, bool shadow) {
 std::vector<Rgb> albedos(const SceneDescription& scene) {
     std::vector<Rgb> out;
     for (const SceneMaterial& m : scene.materials) out.emplace_back(m.specular ? 0.0 : std::stod(m.name));
+    return out;
+}
+
+HybridMaterials materialsOf(const SceneDescription& scene) {
+    HybridMaterials out;
+    out.albedos = albedos(scene);
+    for (const SceneMaterial& m : scene.materials)
+        out.brdfs.push_back(m.model.empty() ? BrdfFunction() : makeModel(m.model).f);
     return out;
 }
 

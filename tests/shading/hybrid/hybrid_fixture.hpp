@@ -1,7 +1,7 @@
 // Small scenes of Lambertian squares for tests of hybrid rendering.
 #pragma once
 
-#include "core/scene_description.hpp"
+#include "shading/hybrid/hybrid_renderer.hpp"
 
 namespace nacre::test {
 
@@ -18,5 +18,6 @@ void addLight(SceneDescription& scene, const Light& light, bool shadow = true);
 
 /// Of materials "lambert:kd=…" that addWhite made.
 std::vector<Rgb> albedos(const SceneDescription& scene);
+HybridMaterials materialsOf(const SceneDescription& scene);
 
 }  // namespace nacre::test

@@ -4,19 +4,10 @@
 #include <gtest/gtest.h>
 
 #include "../gpu_evaluate.hpp"
-#include "factorize/models/models.hpp"
 #include "hybrid_fixture.hpp"
 
 namespace nacre {
 namespace {
-
-HybridMaterials materialsOf(const SceneDescription& scene) {
-    HybridMaterials out;
-    out.albedos = test::albedos(scene);
-    for (const SceneMaterial& m : scene.materials)
-        out.brdfs.push_back(m.model.empty() ? BrdfFunction() : makeModel(m.model).f);
-    return out;
-}
 
 struct Drawn {
     HybridPicture picture;
@@ -26,7 +17,7 @@ struct Drawn {
 Drawn draw(const SceneDescription& scene, const VirtualLightOptions& lights, int size = 33) {
     test::context();
     ProgramLoader loader;
-    HybridRenderer renderer(loader, scene, materialsOf(scene));
+    HybridRenderer renderer(loader, scene, test::materialsOf(scene));
     HybridOptions options;
     options.virtualLights = lights;
     HybridPicture picture = renderer.draw(size, size, options);

@@ -7,7 +7,6 @@
 #include "../gpu_evaluate.hpp"
 #include "core/error.hpp"
 #include "core/light_area.hpp"
-#include "factorize/models/models.hpp"
 #include "hybrid_fixture.hpp"
 #include "shading/hybrid/hybrid_renderer.hpp"
 #include "shading/primitives.hpp"
@@ -57,18 +56,10 @@ void prepare(HybridRenderer& renderer, const Setting& s) {
     renderer.direct().switches.lightPoints = s.lightPoints;
 }
 
-HybridMaterials materialsOf(const SceneDescription& scene) {
-    HybridMaterials out;
-    out.albedos = test::albedos(scene);
-    for (const SceneMaterial& m : scene.materials)
-        out.brdfs.push_back(m.model.empty() ? BrdfFunction() : makeModel(m.model).f);
-    return out;
-}
-
 void runPipe(std::unique_ptr<PipeLink> link, const SceneDescription& scene, const Setting& s) {
     const Context context;
     ProgramLoader loader;
-    HybridRenderer renderer(loader, scene, materialsOf(scene));
+    HybridRenderer renderer(loader, scene, test::materialsOf(scene));
     prepare(renderer, s);
     PipeCrew crew(*link, s.crew);
     for (int frame = 1; const auto time = crew.await(); ++frame) {
@@ -95,7 +86,7 @@ public:
                 }
             });
         }
-        renderer_.emplace(loader_, scene, materialsOf(scene));
+        renderer_.emplace(loader_, scene, test::materialsOf(scene));
         prepare(*renderer_, s);
         crew_.emplace(*link_, s.crew);
     }
@@ -123,7 +114,7 @@ private:
 HybridPicture drawnByOne(const SceneDescription& scene, const Setting& s, const std::vector<DrawShare>& shares = {{}}) {
     test::context().makeCurrent();
     ProgramLoader loader;
-    HybridRenderer renderer(loader, scene, materialsOf(scene));
+    HybridRenderer renderer(loader, scene, test::materialsOf(scene));
     prepare(renderer, s);
     HybridPicture out = renderer.draw(kSize, kSize, s.options);
     if (shares.size() == 1 && shares[0].end == 1) return out;
