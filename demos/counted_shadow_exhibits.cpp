@@ -65,7 +65,7 @@ struct View {
             auto [at, made] = shapes.try_emplace(index);
             if (made) at->second = makeShadowMesh(mesh);
             const ShadowVolume volume = makeShadowVolume(at->second, nodes[index], light());
-            if (volume.indices.empty()) continue;
+            if (volume.empty()) continue;
             points.push_back(std::make_unique<GpuShadowPoints>(at->second));
             volumes.push_back(std::make_unique<GpuShadowVolume>(*points.back(), volume));
             placed.push_back({volumes.back().get(), nodes[index], boundsOf(mesh, nodes[index]), volume.mostLayers()});

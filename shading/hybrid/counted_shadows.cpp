@@ -12,59 +12,11 @@ namespace {
 
 constexpr int kBits = 7;  ///< of the stencil's g-count; the eighth is a borrow, which capped volumes never have
 
-const void* offset(std::size_t indices) { return reinterpret_cast<const void*>(indices * sizeof(std::uint32_t)); }
-
 void fullscreenState(GlName framebuffer) {
     glBindFramebuffer(GL_FRAMEBUFFER, framebuffer);
     glDisable(GL_DEPTH_TEST);
     glDisable(GL_CULL_FACE);
 }
-
-/// A volume's points and lists, for one draw: the object's silhouettes change with each of a light's points.
-class DrawnVolume {
-public:
-    DrawnVolume(const ShadowMesh& mesh, const ShadowVolume& volume) : volume_(volume) {
-        std::vector<glm::vec4> points;
-        for (const glm::vec3& p : mesh.positions) points.insert(points.end(), {glm::vec4(p, 0), glm::vec4(p, 1)});
-        glBindVertexArray(array_.name());
-        glBindBuffer(GL_ARRAY_BUFFER, points_.name());
-        glBufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(points.size() * sizeof(glm::vec4)), points.data(),
-                     GL_STREAM_DRAW);
-        glEnableVertexAttribArray(0);
-        glVertexAttribPointer(0, 4, GL_FLOAT, GL_FALSE, sizeof(glm::vec4), nullptr);
-        glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, indices_.name());
-        glBufferData(GL_ELEMENT_ARRAY_BUFFER, static_cast<GLsizeiptr>(volume.bytes()), volume.indices.data(),
-                     GL_STREAM_DRAW);
-        glBindBuffer(GL_ARRAY_BUFFER, 0);
-    }
-    ~DrawnVolume() { glBindVertexArray(0); }
-    DrawnVolume(const DrawnVolume&) = delete;
-    DrawnVolume& operator=(const DrawnVolume&) = delete;
-
-    void drawSides() const {
-        for (const ShadowVolume::Sides& s : volume_.sides)
-            for (int i = 0; i < s.times; ++i)
-                glDrawElements(GL_TRIANGLES, static_cast<GLsizei>(s.count), GL_UNSIGNED_INT, offset(s.first));
-    }
-
-    /// An end is left through its inner side. Far ones are seen turned over: from where the light is.
-    void drawEnds(bool far) const {
-        const std::size_t first = volume_.indices.size() - volume_.caps - volume_.capsTurned;
-        for (const bool turned : {false, true}) {
-            const std::uint32_t count = turned ? volume_.capsTurned : volume_.caps;
-            glFrontFace(turned != far ? GL_CW : GL_CCW);
-            if (count > 0)
-                glDrawElementsBaseVertex(GL_TRIANGLES, static_cast<GLsizei>(count), GL_UNSIGNED_INT,
-                                         offset(first + (turned ? volume_.caps : 0)), far ? 1 : 0);
-        }
-        glFrontFace(GL_CCW);
-    }
-
-private:
-    const ShadowVolume& volume_;
-    VertexArray array_;
-    Buffer points_, indices_;
-};
 
 }  // namespace
 
@@ -76,7 +28,9 @@ CountedShadows::CountedShadows(ProgramLoader& loader, const SceneDescription& sc
         if (node.mesh < 0 || !node.castsShadow) continue;
         ShadowMesh shape =
             makeShadowMesh(transformed(scene.meshes[static_cast<std::size_t>(node.mesh)].mesh, nodes.at(i)));
-        if (!shape.triangles.empty()) objects_.push_back({std::move(shape), i});
+        if (shape.triangles.empty()) continue;
+        GpuShadowPoints points(shape);
+        objects_.push_back({std::move(shape), std::move(points), i});
     }
 }
 
@@ -115,16 +69,20 @@ std::vector<bool> CountedShadows::taggedNodes(const Vec4& light, int points) con
 
 void CountedShadows::draw(const Object& object, const Vec4& light, bool counted, bool caps) {
     const ShadowVolume volume = makeShadowVolume(object.shape, glm::dmat4(1), light);
-    if (volume.indices.empty()) return;
-    const DrawnVolume drawn(object.shape, volume);
+    if (volume.empty()) return;
+    const GpuShadowVolume drawn(object.points, volume);
     glStencilMask(counted ? ~0u : 0);
     glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
+    glFrontFace(GL_CCW);
     drawn.drawSides();
-    if (!caps) return;
-    ++capped_;
-    glColorMask(GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
-    drawn.drawEnds(false);
-    if (volume.farCap) drawn.drawEnds(true);
+    if (caps) {  // an end is left through its inner side
+        ++capped_;
+        glColorMask(GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
+        drawn.drawCaps(false, false);
+        if (volume.farCap) drawn.drawCaps(true, false);
+        glFrontFace(GL_CCW);
+    }
+    glBindVertexArray(0);
 }
 
 /// Adds the g-count, bit by bit; counts below 0, of volumes without ends, as 0.

@@ -3,7 +3,7 @@
 
 #include "shading/hybrid/ray_scene.hpp"
 #include "shading/hybrid/shadow_levels.hpp"
-#include "shading/multipass/shadow_volume.hpp"
+#include "shading/multipass/shadow_stencil.hpp"
 
 namespace nacre {
 
@@ -43,6 +43,7 @@ public:
 private:
     struct Object {
         ShadowMesh shape;  ///< in the world
+        GpuShadowPoints points;
         std::size_t node = 0;
     };
     std::vector<bool> taggedNodes(const Vec4& light, int points) const;

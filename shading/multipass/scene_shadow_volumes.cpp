@@ -56,17 +56,17 @@ SceneShadowVolumes::Stored& SceneShadowVolumes::stored(const Key& key, const Obj
         out.volume.reset();
         out.points.reset();
         ShadowVolume volume;
-        const GpuShadowPoints* points = object.points ? &*object.points : nullptr;
+        const GpuShadowPoints* pieces = nullptr;
         if (cuts.empty()) {
             volume = makeShadowVolume(object.shape, toWorld, light);
         } else {
-            const CutShadowMesh pieces = cutShadowMesh(object.shape, out.cutsInMesh);
-            volume = makeShadowVolume(object.shape, pieces, toWorld, light);
-            if (!volume.indices.empty()) points = &out.points.emplace(pieces.pieces);
+            const CutShadowMesh cut = cutShadowMesh(object.shape, out.cutsInMesh);
+            volume = makeShadowVolume(object.shape, cut, toWorld, light);
+            if (!volume.empty()) pieces = &out.points.emplace(cut.pieces);
         }
         out.mostLayers = volume.mostLayers();
         out.bytesAPolygon = bytesOfVolumeAPolygon(object.shape, light);
-        if (!volume.indices.empty()) out.volume.emplace(*points, volume);
+        if (!volume.empty()) out.volume.emplace(*object.points, volume, pieces);
     }
     if (out.volume) counts_.bytes += out.volume->bytes();
     if (out.points) counts_.pointBytes += out.points->bytes();

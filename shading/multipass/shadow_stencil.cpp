@@ -49,8 +49,8 @@ GpuShadowPoints::GpuShadowPoints(const ShadowMesh& mesh) {
     for (const glm::vec3& p : mesh.positions) points.insert(points.end(), {glm::vec4(p, 0), glm::vec4(p, 1)});
     std::vector<std::uint32_t> triangles;
     for (const glm::uvec3& t : mesh.triangles) triangles.insert(triangles.end(), {2 * t.x, 2 * t.y, 2 * t.z});
-    indices_ = triangles.size();
-    const std::size_t pointBytes = points.size() * sizeof(glm::vec4), listBytes = indices_ * sizeof(std::uint32_t);
+    const std::size_t pointBytes = points.size() * sizeof(glm::vec4);
+    const std::size_t listBytes = triangles.size() * sizeof(std::uint32_t);
     bytes_ = pointBytes + listBytes;
     glBindVertexArray(array_.name());
     glBindBuffer(GL_ARRAY_BUFFER, buffer_.name());
@@ -64,17 +64,17 @@ GpuShadowPoints::GpuShadowPoints(const ShadowMesh& mesh) {
     checkGl("uploading a shadow volume's points");
 }
 
-GpuShadowVolume::GpuShadowVolume(const GpuShadowPoints& points, const ShadowVolume& volume)
-    : points_(&points),
-      shape_(volume),
-      wholeCaps_(!volume.cut && std::max(volume.caps, volume.capsTurned) == points.indices_),
-      bytes_(volume.bytes() - (wholeCaps_ ? points.indices_ * sizeof(std::uint32_t) : 0)) {
+GpuShadowVolume::GpuShadowVolume(const GpuShadowPoints& points, const ShadowVolume& volume,
+                                 const GpuShadowPoints* pieces)
+    : points_(&points), farPoints_(pieces ? pieces : &points), shape_(volume), bytes_(volume.bytes()) {
+    require(volume.cut == (pieces != nullptr), "shadow volume: pieces belong to the volumes of cut meshes");
     glBindVertexArray(array_.name());
-    glBindBuffer(GL_ARRAY_BUFFER, points.buffer_.name());
+    glBindBuffer(GL_ARRAY_BUFFER, farPoints_->buffer_.name());
     glEnableVertexAttribArray(0);
     glVertexAttribPointer(0, 4, GL_FLOAT, GL_FALSE, sizeof(glm::vec4), nullptr);
     glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, indices_.name());
-    glBufferData(GL_ELEMENT_ARRAY_BUFFER, static_cast<GLsizeiptr>(bytes_), volume.indices.data(), GL_DYNAMIC_DRAW);
+    glBufferData(GL_ELEMENT_ARRAY_BUFFER, static_cast<GLsizeiptr>(volume.indices.size() * sizeof(std::uint32_t)),
+                 volume.indices.data(), GL_DYNAMIC_DRAW);
     glBindVertexArray(0);
     glBindBuffer(GL_ARRAY_BUFFER, 0);
     shape_.indices = {};
@@ -88,22 +88,15 @@ void GpuShadowVolume::drawSides() const {
             glDrawElements(GL_TRIANGLES, static_cast<GLsizei>(s.count), GL_UNSIGNED_INT, offset(s.first));
 }
 
-void GpuShadowVolume::drawCaps(bool far, bool turnedOver) const {
-    const std::uint32_t farOwn = shape_.farCaps + shape_.farCapsTurned, nearAll = shape_.caps + shape_.capsTurned;
-    const bool own = far && shape_.cut;
-    const std::uint32_t facing = own ? shape_.farCaps : shape_.caps;
-    const std::uint32_t count =
-        own ? (turnedOver ? shape_.farCapsTurned : shape_.farCaps) : (turnedOver ? shape_.capsTurned : shape_.caps);
-    if (count == 0) return;
-    if (wholeCaps_) {
-        glBindVertexArray(points_->array_.name());
-        glDrawElementsBaseVertex(GL_TRIANGLES, static_cast<GLsizei>(count), GL_UNSIGNED_INT, nullptr, far ? 1 : 0);
-        return;
+void GpuShadowVolume::drawCaps(bool far, bool mirrored) const {
+    const ShadowVolume::Caps& caps = far && shape_.cut ? shape_.farCaps : shape_.caps;
+    glBindVertexArray((far ? farPoints_ : points_)->array_.name());
+    for (const bool turned : {false, true}) {
+        frontFaces(mirrored != (turned != far));
+        for (const ShadowVolume::Run& run : turned ? caps.turned : caps.facing)
+            glDrawElementsBaseVertex(GL_TRIANGLES, static_cast<GLsizei>(3 * run.count), GL_UNSIGNED_INT,
+                                     offset(3 * std::size_t(run.first)), far ? 1 : 0);
     }
-    const std::size_t all = bytes_ / sizeof(std::uint32_t), first = all - farOwn - (own ? 0 : nearAll);
-    glBindVertexArray(array_.name());
-    glDrawElementsBaseVertex(GL_TRIANGLES, static_cast<GLsizei>(count), GL_UNSIGNED_INT,
-                             offset(first + (turnedOver ? facing : 0)), far ? 1 : 0);
 }
 
 ShadowSight ShadowSight::of(const Camera& camera, double aspect) {
@@ -218,26 +211,20 @@ void ShadowStencil::drawZFail(const PlacedShadowVolume& placed, const Vec4& ligh
     const bool mirrored = sight.mirrored != placed.mirrored;
     glStencilOpSeparate(GL_FRONT, GL_KEEP, GL_DECR_WRAP, GL_KEEP);
     glStencilOpSeparate(GL_BACK, GL_KEEP, GL_INCR_WRAP, GL_KEEP);
-    const auto caps = [&](bool far) {
-        for (const bool turned : {false, true}) {
-            frontFaces(mirrored != (turned != far));
-            volume.drawCaps(far, turned);
-        }
-    };
-    const unsigned cut = volume.shape_.cut ? kCut : 0;
+    const unsigned cut = volume.shape().cut ? kCut : 0;
     // Of an image no pixel has the depth of a near cap: it is clamped as sides are.
     if (placed.image) glEnable(GL_DEPTH_CLAMP);
     place(cut | (sight.clip && !placed.image ? kClipped : 0), placed, light, sight);
-    caps(false);
+    volume.drawCaps(false, mirrored);
     glEnable(GL_DEPTH_CLAMP);
     if (!placed.image && !sight.clip && reachesBeyondFar(placed.box, sight.worldToClip)) {
         place(cut | kBeyondFar, placed, light, sight);
-        caps(false);
+        volume.drawCaps(false, mirrored);
     }
     place(0, placed, light, sight);
     frontFaces(mirrored);
     volume.drawSides();
-    if (volume.shape_.farCap) caps(true);
+    if (volume.shape().farCap) volume.drawCaps(true, mirrored);
     glDisable(GL_DEPTH_CLAMP);
 }
 

@@ -22,27 +22,29 @@ private:
     friend class GpuShadowVolume;
     VertexArray array_;  ///< of the triangles
     Buffer buffer_, triangles_;
-    std::size_t indices_ = 0;
     std::size_t bytes_ = 0;
 };
 
-/// A volume's lists. Move-only. Caps that are all of the mesh's triangles, of a flat one for instance, aren't stored
-/// again.
+/// A volume's lists; its caps are drawn as runs of the points' triangles. Move-only.
 class GpuShadowVolume {
 public:
     /// \param points  of the mesh that the volume was made of; outlives this
-    GpuShadowVolume(const GpuShadowPoints& points, const ShadowVolume& volume);
+    /// \param pieces  of a cut mesh the points of its pieces; outlives this
+    GpuShadowVolume(const GpuShadowPoints& points, const ShadowVolume& volume, const GpuShadowPoints* pieces = nullptr);
     std::size_t bytes() const { return bytes_; }
+    const ShadowVolume& shape() const { return shape_; }  ///< without its indices
+
+    // Under a program of stencil_volume.vert.glsl. Leave a vertex array bound.
+    void drawSides() const;
+    /// Sets the front face so that faces seen from outside the volume are front ones. \param mirrored  in a mirror
+    void drawCaps(bool far, bool mirrored) const;
 
 private:
-    friend class ShadowStencil;
-    void drawSides() const;
-    void drawCaps(bool far, bool turnedOver) const;
     VertexArray array_;
     Buffer indices_;
     const GpuShadowPoints* points_;
-    ShadowVolume shape_;  ///< without its indices
-    bool wholeCaps_;      ///< the points' own triangles
+    const GpuShadowPoints* farPoints_;
+    ShadowVolume shape_;
     std::size_t bytes_ = 0;
 };
 

@@ -81,19 +81,30 @@ void addSides(ShadowVolume& out, const ShadowMesh& mesh, const std::vector<signe
     }
 }
 
-/// Those seen counter-clockwise from the light, then those turned over.
-void addCaps(ShadowVolume& out, const std::vector<glm::uvec3>& triangles, const std::vector<signed char>& turn,
-             std::uint32_t& caps, std::uint32_t& turned) {
-    for (const int wanted : {1, -1})
-        for (std::size_t t = 0; t < triangles.size(); ++t) {
-            if (turn[t] != wanted) continue;
-            const glm::uvec3& c = triangles[t];
-            out.indices.insert(out.indices.end(), {nearPoint(c.x), nearPoint(c.y), nearPoint(c.z)});
-            (wanted > 0 ? caps : turned) += 3;
-        }
+/// Takes a triangle after all that were taken before it.
+void addCap(ShadowVolume::Caps& out, std::uint32_t triangle, int turn) {
+    if (turn == 0) return;
+    std::vector<ShadowVolume::Run>& runs = turn > 0 ? out.facing : out.turned;
+    if (!runs.empty() && runs.back().first + runs.back().count == triangle)
+        ++runs.back().count;
+    else
+        runs.push_back({triangle, 1});
 }
 
 }  // namespace
+
+std::size_t ShadowVolume::Caps::triangles() const {
+    std::size_t out = 0;
+    for (const std::vector<Run>* runs : {&facing, &turned})
+        for (const Run& run : *runs) out += run.count;
+    return out;
+}
+
+std::size_t ShadowVolume::bytes() const {
+    std::size_t runs = 0;
+    for (const Caps* c : {&caps, &farCaps}) runs += c->facing.size() + c->turned.size();
+    return indices.size() * sizeof(std::uint32_t) + runs * sizeof(Run);
+}
 
 Vec4 homogeneous(const Light& light) { return {light.position, light.directional ? 0 : 1}; }
 
@@ -103,7 +114,7 @@ ShadowVolume makeShadowVolume(const ShadowMesh& mesh, const glm::dmat4& toWorld,
     ShadowVolume out;
     out.farCap = light.w != 0;
     addSides(out, mesh, turn);
-    addCaps(out, mesh.triangles, turn, out.caps, out.capsTurned);
+    for (std::uint32_t t = 0; t < turn.size(); ++t) addCap(out.caps, t, turn[t]);
     return out;
 }
 
@@ -111,21 +122,17 @@ ShadowVolume makeShadowVolume(const ShadowMesh& mesh, const CutShadowMesh& cut, 
                               const Vec4& light) {
     checkPlaced(toWorld, light);
     const std::vector<signed char> turn = turns(mesh, toWorld, light, false);
-    std::vector<signed char> ofPieces, ofWhole;
-    std::vector<glm::uvec3> whole;
-    for (std::size_t i = 0; i < cut.from.size(); ++i) {
-        const std::uint32_t t = cut.from[i];
-        ofPieces.push_back(turn[t]);
-        if (i > 0 && cut.from[i - 1] == t) continue;
-        whole.push_back(mesh.triangles[t]);
-        ofWhole.push_back(turn[t]);
-    }
     ShadowVolume out;
     out.farCap = light.w != 0;
     out.cut = true;
+    std::vector<signed char> ofPieces;
+    for (std::uint32_t i = 0; i < cut.from.size(); ++i) {
+        const std::uint32_t t = cut.from[i];
+        ofPieces.push_back(turn[t]);
+        if (i == 0 || cut.from[i - 1] != t) addCap(out.caps, t, turn[t]);
+        if (out.farCap) addCap(out.farCaps, i, turn[t]);
+    }
     addSides(out, cut.pieces, ofPieces);
-    addCaps(out, whole, ofWhole, out.caps, out.capsTurned);
-    if (out.farCap) addCaps(out, cut.pieces.triangles, ofPieces, out.farCaps, out.farCapsTurned);
     return out;
 }
 

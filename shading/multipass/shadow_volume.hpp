@@ -18,6 +18,7 @@ Vec4 homogeneous(const Light& light);
 ///   sides  from each edge, away from the light, as often as the triangles at it don't cancel: once at a silhouette or
 ///          a border, twice where two triangles fold over it;
 ///   caps   the triangles, and the same at infinity. A light at infinity has one vanishing point and no far cap.
+///          They are named as runs of the mesh's own list, which all its volumes share.
 /// A solid (ShadowMesh::solid) that the light is outside of needs the triangles that face the light alone: what enters
 /// it goes through one of them first, or begins inside. Any other mesh takes all of its triangles.
 ///
@@ -27,18 +28,24 @@ struct ShadowVolume {
         std::uint32_t first = 0, count = 0;  ///< of `indices`
         int times = 1;                       ///< how often they count
     };
-    std::vector<std::uint32_t> indices;      ///< three points a triangle: sides, then caps; caps name near points.
-                                             ///< Of a cut mesh far caps of their own are the last
-    std::vector<Sides> sides;                ///< at most a few
-    std::uint32_t caps = 0, capsTurned = 0;  ///< indices of caps that go counter-clockwise seen from the light, and of
-                                             ///< those, after them, that go clockwise
+    struct Run {
+        std::uint32_t first = 0, count = 0;  ///< of triangles
+    };
+    struct Caps {
+        std::vector<Run> facing, turned;  ///< counter-clockwise and clockwise, seen from the light
+        std::size_t triangles() const;
+    };
+    std::vector<std::uint32_t> indices;  ///< of sides, three points a triangle
+    std::vector<Sides> sides;            ///< at most a few
+    Caps caps;
     bool farCap = true;
-    bool cut = false;                              ///< near caps are whole triangles, far caps pieces
-    std::uint32_t farCaps = 0, farCapsTurned = 0;  ///< of a cut mesh, as `caps`
+    bool cut = false;  ///< near caps are whole triangles of the mesh, far caps pieces
+    Caps farCaps;      ///< of a cut mesh: of its pieces
 
-    std::size_t bytes() const { return indices.size() * sizeof(std::uint32_t); }
+    bool empty() const { return indices.empty() && mostLayers() == 0; }
+    std::size_t bytes() const;
     /// Triangles that can stand one behind the other: no count is higher.
-    std::size_t mostLayers() const { return (caps + capsTurned) / 3; }
+    std::size_t mostLayers() const { return caps.triangles(); }
 };
 
 /// \param light  in the world, homogeneous. O(triangles), with a light inside the body's box some 10 times that.

@@ -54,7 +54,7 @@ Drawn draw(const Scenery& scenery, ShadowCounting counting = ShadowCounting::Aut
         meshes.emplace_back(o.mesh);
         const ShadowMesh shape = makeShadowMesh(o.mesh);
         const ShadowVolume volume = makeShadowVolume(shape, o.toWorld, light);
-        if (volume.indices.empty()) continue;
+        if (volume.empty()) continue;
         points.push_back(std::make_unique<GpuShadowPoints>(shape));
         volumes.push_back(std::make_unique<GpuShadowVolume>(*points.back(), volume));
         placed.push_back({volumes.back().get(), o.toWorld, boundsOf(o.mesh, o.toWorld), volume.mostLayers()});
