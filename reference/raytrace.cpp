@@ -54,7 +54,7 @@ private:
         return sum;
     }
     bool occluded(const SurfacePoint& s, const Light& light, const Vec3& offset) const {
-        const double skip = 1e-4 * scene_.size();  // past the triangle itself: positions are single precision
+        const double skip = 1e-5 * scene_.size();  // past the triangle itself: positions are single precision
         const double length = glm::length(offset);
         const double end = light.directional ? std::numeric_limits<float>::max() : length - skip;
         return scene_.occluded({s.position, offset / length, skip, end});

@@ -27,7 +27,7 @@ public:
     bool shadowed(const Vec3& position, const Vec3& direction, double distance) const;
     bool blocked(const Vec3& position, const Vec3& direction) const;
     /// Past the triangle that a ray starts from: positions are single precision.
-    double skip() const { return 1e-4 * all_.size(); }
+    double skip() const { return 1e-5 * all_.size(); }
 
 private:
     /// Meshes in the world as one, and which node a triangle belongs to.

@@ -85,7 +85,9 @@ Camera withDepth(const Camera& camera, const SceneBounds& bounds) {
         const double radius = bounds.radius() > 0 ? bounds.radius() : 1;
         const double distance = glm::length(bounds.centre() - camera.eye);
         far = 1.5 * (distance + radius);
-        near = std::max(1e-3 * far, 0.5 * (distance - radius));
+        // Of a scene far larger than what is looked at, not so much of its size that this would be cut.
+        const double ahead = glm::length(camera.target - camera.eye);
+        near = std::max(std::min(1e-3 * far, 0.02 * ahead), 0.5 * (distance - radius));
     }
     Camera out = camera;
     if (camera.far == 0) out.far = std::max(far, 10 * camera.near);

@@ -23,7 +23,8 @@ SceneBounds boundsOf(const SceneDescription& scene);
 /// Stands in front (+z), a little above and to the right, and sees all of `bounds`; the default camera when empty.
 Camera cameraSeeing(const SceneBounds& bounds);
 /// The camera with those of near and far that are 0 fitted about `bounds`, with room to move: near is far / 1000 or
-/// more; the default camera's where bounds are empty.
+/// more, but no more than a fiftieth of the way to the target unless nothing is that near; the default camera's where
+/// bounds are empty.
 Camera withDepth(const Camera& camera, const SceneBounds& bounds);
 
 /// A camera of a node in the world: turned and moved, not scaled.

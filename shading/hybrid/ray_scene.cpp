@@ -66,7 +66,7 @@ RayScene::RayScene(const SceneDescription& scene, const std::vector<glm::dmat4>&
     rtcCommitScene(handle(casters_));
     if (const RTCError error = rtcGetDeviceError(device.get()); error != RTC_ERROR_NONE)
         throw Error(fmt::format("embree: error {} while building", static_cast<int>(error)));
-    if (!bounds.empty()) skip_ = 1e-4 * glm::length(bounds.high - bounds.low);
+    if (!bounds.empty()) skip_ = 1e-5 * glm::length(bounds.high - bounds.low);
 }
 
 std::optional<RaySceneHit> RayScene::firstHit(const Vec3& from, const Vec3& direction) const {

@@ -39,6 +39,15 @@ bool isOutside(const std::vector<Vec3>& points, const std::vector<glm::uvec3>& t
     return std::abs(winding(points, triangles, at)) < 1e-3;  // a light in the surface is taken for inside: always right
 }
 
+/// Whether a light lies in a triangle's plane as far as the mesh's floats tell: it lights no side of it then, while
+/// either side's shadow would be half of space.
+bool isInPlane(const Vec3& a, const Vec3& b, const Vec3& c, const Vec4& light, double height, double normal) {
+    constexpr double kRounding = 1e-6;
+    const double size =
+        light.w == 0 ? 1 : glm::length(Vec3(light) - a) + glm::length(b - a) + glm::length(c - a) + glm::length(a);
+    return std::abs(height) <= kRounding * size * normal;
+}
+
 /// +1: the triangle counts as it is, seen counter-clockwise from the light; −1: turned over; 0: not at all.
 std::vector<signed char> turns(const ShadowMesh& mesh, const glm::dmat4& toWorld, const Vec4& light, bool whole) {
     const std::vector<Vec3> points = moved(mesh, toWorld);
@@ -46,9 +55,10 @@ std::vector<signed char> turns(const ShadowMesh& mesh, const glm::dmat4& toWorld
     const bool half = whole && mesh.solid && isOutside(points, mesh.triangles, light);
     std::vector<signed char> out;
     for (const glm::uvec3& t : mesh.triangles) {
-        const Vec3 a = points[t.x], normal = glm::cross(points[t.y] - a, points[t.z] - a);
+        const Vec3 &a = points[t.x], &b = points[t.y], &c = points[t.z], normal = glm::cross(b - a, c - a);
         const double facing = glm::dot(normal, Vec3(light) - light.w * a);
-        const int turn = facing > 0 ? 1 : facing < 0 ? -1 : 0;
+        const bool edgeOn = isInPlane(a, b, c, light, facing, glm::length(normal));
+        const int turn = edgeOn ? 0 : facing > 0 ? 1 : -1;
         out.push_back(static_cast<signed char>(half && turn != outward ? 0 : turn));
     }
     return out;

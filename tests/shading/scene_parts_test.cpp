@@ -54,6 +54,12 @@ TEST(SceneBounds, CameraSeesThemAndDepthHoldsThem) {
     EXPECT_GT(withDepth(inside, bounds).far, bounds.radius());
     inside.near = 0;
     EXPECT_GT(withDepth(inside, bounds).near, 0);
+    SceneBounds plain;  // kilometres of floor about what is looked at
+    plain.add({-8000, 0, -8000});
+    plain.add({8000, 1, 8000});
+    inside.target = inside.eye + Vec3(0, 0, -5);
+    EXPECT_LT(withDepth(inside, plain).near, 0.2);
+    EXPECT_GT(withDepth(inside, plain).near, 0.01);
     EXPECT_EQ(withDepth(inside, SceneBounds()).far, Camera().far);
     EXPECT_EQ(cameraSeeing(SceneBounds()).eye, Camera().eye);
 }

@@ -170,6 +170,19 @@ TEST(ShadowVolume, LightInThePlaneOfAFaceSeesNothingOfIt) {
     EXPECT_TRUE(volume.empty());
 }
 
+// A lamp flush with a ceiling: rounding of the matrix puts it on one side of one triangle, and half of space in shadow.
+TEST(ShadowVolume, LightFlushWithAMovedFaceSeesNothingOfIt) {
+    const ShadowMesh face = makeShadowMesh(makeQuad(2, 2));
+    for (const double angle : {90.0, 33.0, -71.0}) {
+        glm::dmat4 toWorld = glm::translate(glm::dmat4(1), Vec3(0.1, 1, -3));
+        toWorld = glm::rotate(toWorld, glm::radians(angle), glm::normalize(Vec3(1, 0.2, 0)));
+        for (const Vec3& at : {Vec3(0.3, -0.4, 0), Vec3(5, 0.7, 0), Vec3(0.999, 0.1, 0)})
+            EXPECT_TRUE(makeShadowVolume(face, toWorld, toWorld * Vec4(at, 1)).empty()) << angle;
+        const Vec4 above = toWorld * Vec4(0.3, -0.4, 1e-4, 1);
+        EXPECT_FALSE(makeShadowVolume(face, toWorld, above).empty()) << angle;
+    }
+}
+
 TEST(ShadowVolume, EmptyMeshCastsNothing) {
     EXPECT_TRUE(makeShadowVolume(makeShadowMesh({}), glm::dmat4(1), {0, 1, 0, 0}).empty());
 }
