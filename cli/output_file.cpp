@@ -26,12 +26,13 @@ static void requireEnding(const std::string& output, const std::string& ending) 
                                      found.empty() ? "no ending" : found));
 }
 
-void requireWritable(const std::string& source, const std::string& output, const fs::path& provisional,
+void requireWritable(const std::vector<fs::path>& sources, const std::string& output, const fs::path& provisional,
                      const std::string& ending) {
     require(!output.empty(), "-o: expected a file name, found none");
     std::error_code failure;
-    require(!fs::equivalent(source, output, failure),
-            fmt::format("{}: expected an output other than the source, which it would replace", output));
+    for (const fs::path& source : sources)
+        require(!fs::equivalent(source, output, failure),
+                fmt::format("{}: expected an output other than the source, which it would replace", output));
     if (fs::exists(output, failure) && !fs::is_regular_file(output, failure))
         throw Error(fmt::format("{}: can't write: expected a file or a free name, found a folder or device", output));
     requireEnding(output, ending);

@@ -5,6 +5,7 @@
 #include <ctime>
 #include <filesystem>
 #include <string>
+#include <vector>
 
 namespace nacre::cli {
 
@@ -13,10 +14,10 @@ std::filesystem::path provisionalName(const std::string& output);
 
 /// Fails before the bake when nothing can be written there.
 /// \param ending  that the name must have; empty: any
-/// \throws std::invalid_argument when output is empty or the source itself, UsageError when its name ends otherwise;
+/// \throws std::invalid_argument when output is empty or one of the sources, UsageError when its name ends otherwise;
 ///         nacre::Error when it can't be written
-void requireWritable(const std::string& source, const std::string& output, const std::filesystem::path& provisional,
-                     const std::string& ending = ".exr");
+void requireWritable(const std::vector<std::filesystem::path>& sources, const std::string& output,
+                     const std::filesystem::path& provisional, const std::string& ending = ".exr");
 
 class Stopwatch {
 public:

@@ -12,6 +12,15 @@ namespace nacre::cli {
 
 namespace fs = std::filesystem;
 
+std::vector<fs::path> filesOf(const SceneDescription& scene) {
+    std::vector<fs::path> out{scene.file};
+    for (const SceneAsset& asset : scene.assets) out.push_back(asset.file);
+    for (const SceneMaterial& material : scene.materials)
+        if (material.specular)
+            out.insert(out.end(), material.specular->pictures.begin(), material.specular->pictures.end());
+    return out;
+}
+
 std::string pictureEnding(const std::string& output) {
     std::string ending = fs::path(output).extension().string();
     for (char& c : ending) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));

@@ -1,13 +1,18 @@
 // Pictures as `nacre render` writes them.
 #pragma once
 
+#include <filesystem>
 #include <nlohmann/json.hpp>
 #include <string>
 
 #include "core/image.hpp"
+#include "core/scene_description.hpp"
 #include "reference/image_compare.hpp"
 
 namespace nacre::cli {
+
+/// Of a scene that was read: what a picture might replace, itself, its assets and pictures on its faces.
+std::vector<std::filesystem::path> filesOf(const SceneDescription& scene);
 
 /// ".exr" or ".png", as `output` ends. \throws UsageError
 std::string pictureEnding(const std::string& output);

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
 #include <filesystem>
 
 #include "cli/output_file.hpp"
@@ -12,6 +14,13 @@
 namespace nacre::cli {
 
 void PictureSet::add(const Image& image, const std::string& output, double white) {
+    const auto& data = image.data();
+    const auto bad = std::find_if(data.begin(), data.end(), [](float v) { return !std::isfinite(v); });
+    if (bad != data.end()) {
+        const auto pixel = static_cast<int>((bad - data.begin()) / image.channels());
+        throw Error(fmt::format("{}: expected finite radiance, found none at pixel ({}, {})", output,
+                                pixel % image.width(), pixel / image.width()));
+    }
     const std::filesystem::path beside = provisionalName(output);
     pictures_.push_back({output, std::make_unique<TemporaryFile>(beside)});
     if (pictureEnding(output) == ".exr")

@@ -255,7 +255,7 @@ void renderHybrid(const Context& context, SceneDescription scene, const HybridPi
     const std::string ending = pictureEnding(p.output);
     if (pipes.leads())
         for (const std::string& output : outputsOf(p, ending))
-            requireWritable(p.scene, output, provisionalName(output), "");
+            requireWritable(filesOf(scene), output, provisionalName(output), "");
     const nacre::Context gl(GlApi::Core33);
     ProgramLoader loader;
     HybridRenderer renderer(loader, scene, materialsOf(scene));

@@ -130,7 +130,7 @@ void renderTransfer(const Context& context, const TransferPictures& p) {
             fmt::format("--view: expected a matt transfer file, found {}, which is glossy for one viewer", p.file));
     const std::vector<std::size_t> chosen = chosenFrames(p, recording);
     const std::string first = numberedName(p.output, recording.frames[chosen[0]].number);
-    requireWritable(p.file, first, provisionalName(first), "");
+    requireWritable({p.file}, first, provisionalName(first), "");
     PlayedLight light = readLights(p.light, recording.order);
     const nacre::Context gl(GlApi::Core33);
     Pictures pictures(p, std::move(recording), std::move(light));

@@ -70,7 +70,7 @@ void requirePlyPlace(const std::string& pattern, int frame) {
     // A folder that isn't there is made beside a file that could be.
     const bool file = pattern.find('#') != std::string::npos || fs::is_directory(pattern);
     const std::string place = file ? plyName(pattern, frame) : fs::path(pattern / fs::path()).parent_path().string();
-    requireWritable("", place, provisionalName(place), "");
+    requireWritable({}, place, provisionalName(place), "");
 }
 
 static Image asImage(const std::vector<glm::vec3>& colors) {

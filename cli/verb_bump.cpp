@@ -186,7 +186,7 @@ void runBump(const Context& context, const Settings& s) {
     in.texelSize = s.texelSize.value_or(1);
     const fs::path provisional = provisionalName(s.output);
     const TemporaryFile removeLater(provisional);
-    requireWritable(s.source, s.output, provisional);
+    requireWritable({s.source}, s.output, provisional);
 
     const Progress progress = terminalProgress(context.quiet);
     const Stopwatch reading;

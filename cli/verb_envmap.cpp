@@ -177,7 +177,7 @@ static void requireScaleFits(const Settings& s, const EnvChain& chain, const Env
 static void runEnvmap(const Context& context, Settings& s) {
     const fs::path provisional = provisionalName(s.output);
     const TemporaryFile removeLater(provisional);
-    requireWritable(s.source, s.output, provisional);
+    requireWritable({s.source}, s.output, provisional);
     s.in.layout = sourceLayoutFromString(s.sourceLayout);
     s.in.negative = negativePolicyFromString(s.negative);
     s.in.yaw = s.yawDeg * kPi / 180;

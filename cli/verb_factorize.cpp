@@ -87,7 +87,7 @@ static void runFactorize(const Context& context, Settings& s) {
     if (const auto unused = unusedOption(s.options)) throw UsageError("--" + *unused);
     const fs::path provisional = provisionalName(s.output);
     const TemporaryFile removeLater(provisional);
-    requireWritable(s.source, s.output, provisional);
+    requireWritable({s.source}, s.output, provisional);
 
     const Stopwatch baking;
     const Reflectance reflectance = openReflectance(s.source);

@@ -74,7 +74,7 @@ Baked bakeWithin(const Settings& s, const FresnelIndex& index) {
 void runFresnel(const Context& context, const Settings& s) {
     const std::filesystem::path provisional = provisionalName(s.output);
     const TemporaryFile removeLater(provisional);
-    requireWritable("", s.output, provisional);
+    requireWritable({}, s.output, provisional);
     if (s.scaleBias && !(s.eta + s.k).empty()) throw UsageError("--eta, --k: --scale-bias doesn't take them");
     const FresnelIndex index{s.eta.empty() ? Rgb(1.5) : parseColour("--eta", s.eta),
                              s.k.empty() ? Rgb(0) : parseColour("--k", s.k)};

@@ -172,7 +172,7 @@ void runRender(const Context& context, const Settings& s) {
     }
     if (isHybrid(s.hybrid)) return runHybrid(context, s, std::move(scene));
     checkPlanar(scene);
-    requireWritable(s.scene, s.output, provisionalName(s.output), "");
+    requireWritable(filesOf(scene), s.output, provisionalName(s.output), "");
     const SceneSwitches switches = switchesFor(s, scene);
     const nacre::Context gl(GlApi::Core33);
     ProgramLoader loader;

@@ -202,7 +202,7 @@ void runTransferVerb(const Context& context, Settings s) {
         throw UsageError("--sides: expected auto, front or both with --lut, found 'fine'");
     s.plan.options.vectors = vectorSetFromString(s.vectors);
     maskKernel(s.plan.options.mask, s.plan.options.vectors);  // a processor without these vectors: said before the work
-    requireWritable(s.model, s.output, provisionalName(s.output), "");
+    requireWritable({s.model}, s.output, provisionalName(s.output), "");
     if (!s.ply.empty()) requirePlyPlace(s.ply, s.plan.first);
     if (s.plan.windowFrames > 0 && s.plan.visibleSets.empty())
         throw UsageError("--pvs-window: expected --pvs, found none");

@@ -24,33 +24,28 @@ std::string step(const std::string& key) {
 }
 
 /// Follows the parser: where it is, and which keys each open object has had.
-class Watcher {
+class Watcher : public nlohmann::json_sax<json> {
 public:
     explicit Watcher(const std::string& name) : name_(name) {}
 
-    bool operator()(json::parse_event_t event, const json& parsed) {
-        switch (event) {
-            case json::parse_event_t::object_start:
-            case json::parse_event_t::array_start:
-                countItem();
-                open_.push_back({event == json::parse_event_t::array_start, 0, {}, {}});
-                if (open_.size() > kMaxDepth)
-                    throw Error(
-                        fmt::format("{}: {}: expected at most {} levels, found more", name_, path(), kMaxDepth));
-                break;
-            case json::parse_event_t::key:
-                takeKey(parsed.get_ref<const std::string&>());
-                break;
-            case json::parse_event_t::value:
-                countItem();
-                break;
-            case json::parse_event_t::object_end:
-            case json::parse_event_t::array_end:
-                open_.pop_back();
-                break;
-        }
+    bool null() override { return countItem(); }
+    bool boolean(bool) override { return countItem(); }
+    bool number_integer(number_integer_t) override { return countItem(); }
+    bool number_unsigned(number_unsigned_t) override { return countItem(); }
+    bool number_float(number_float_t, const string_t&) override { return countItem(); }
+    bool string(string_t&) override { return countItem(); }
+    bool binary(binary_t&) override { return countItem(); }
+    bool start_object(std::size_t) override { return open(false); }
+    bool start_array(std::size_t) override { return open(true); }
+    bool end_object() override { return close(); }
+    bool end_array() override { return close(); }
+    bool key(string_t& key) override {
+        open_.back().key = key;
+        if (!open_.back().keys.insert(key).second)
+            throw Error(fmt::format("{}: {}: expected each name once, found it twice", name_, path()));
         return true;
     }
+    bool parse_error(std::size_t, const std::string&, const json::exception&) override { return false; }
 
 private:
     struct Open {
@@ -60,13 +55,20 @@ private:
         std::set<std::string> keys;
     };
 
-    void countItem() {
+    bool countItem() {
         if (!open_.empty() && open_.back().isArray) ++open_.back().items;
+        return true;
     }
-    void takeKey(const std::string& key) {
-        open_.back().key = key;
-        if (!open_.back().keys.insert(key).second)
-            throw Error(fmt::format("{}: {}: expected each name once, found it twice", name_, path()));
+    bool open(bool isArray) {
+        countItem();
+        open_.push_back({isArray, 0, {}, {}});
+        if (open_.size() > kMaxDepth)
+            throw Error(fmt::format("{}: {}: expected at most {} levels, found more", name_, path(), kMaxDepth));
+        return true;
+    }
+    bool close() {
+        open_.pop_back();
+        return true;
     }
     std::string path() const {
         std::string out;
@@ -100,10 +102,11 @@ std::vector<std::string> asStrings(std::initializer_list<std::string_view> words
 }  // namespace
 
 json parseJson(std::string_view text, const std::string& name) {
+    // Watched first, without values: the parser's own callback would make reading quadratic in an object's keys.
     Watcher watcher(name);
+    json::sax_parse(text.begin(), text.end(), &watcher);
     try {
-        return json::parse(text.begin(), text.end(),
-                           [&](int, json::parse_event_t event, const json& parsed) { return watcher(event, parsed); });
+        return json::parse(text.begin(), text.end());
     } catch (const json::exception& error) {
         throw Error(fmt::format("{}: expected JSON, found: {}", name, reasonOf(error)));
     }
@@ -162,10 +165,12 @@ std::vector<std::pair<std::string, JsonField>> JsonField::members() const {
 std::vector<JsonField> JsonField::items(std::size_t least, std::size_t most) const {
     const bool exactly = least == most;
     if (!value_->is_array() || value_->size() < least || value_->size() > most)
-        fail(fmt::format(
-            "expected an array{}, found {}",
-            exactly ? fmt::format(" of {}", least) : (least ? fmt::format(" of at least {}", least) : std::string()),
-            found()));
+        fail(fmt::format("expected an array{}, found {}",
+                         exactly                 ? fmt::format(" of {}", least)
+                         : value_->size() > most ? fmt::format(" of at most {}", most)
+                         : least                 ? fmt::format(" of at least {}", least)
+                                                 : std::string(),
+                         found()));
     std::vector<JsonField> out;
     for (std::size_t i = 0; i < value_->size(); ++i)
         out.emplace_back((*value_)[i], *file_, path_ + '/' + std::to_string(i));
@@ -211,11 +216,12 @@ std::string JsonField::text() const {
 
 Vec3 JsonField::vector() const {
     const std::vector<JsonField> v = items(3, 3);
-    return {v[0].number(), v[1].number(), v[2].number()};
+    return {v[0].number(-kFarthest, kFarthest), v[1].number(-kFarthest, kFarthest), v[2].number(-kFarthest, kFarthest)};
 }
 
 Vec3 JsonField::direction() const {
-    const Vec3 v = vector();
+    const std::vector<JsonField> d = items(3, 3);
+    const Vec3 v{d[0].number(), d[1].number(), d[2].number()};
     const double length = glm::length(v);
     if (!(length > 1e-150) || !std::isfinite(length)) fail("expected a direction, found no length");
     return v / length;

@@ -23,6 +23,9 @@ nlohmann::json parseJson(std::string_view text, const std::string& name);
 /// The names of a section in ascending order, as members() gives them; the place of a name is its index.
 using JsonNames = std::vector<std::string>;
 
+/// Largest coordinates and radiances: floats hold their products and squares.
+inline constexpr double kFarthest = 1e9, kBrightest = 1e15;
+
 /// A value in a document. All readers throw nacre::Error: "scene.json: /materials/gold/brdf: expected …, found …".
 /// Refers to the document and to `file`, which must outlive it.
 class JsonField {
@@ -50,11 +53,11 @@ public:
     double positive() const;                                                     ///< finite, > 0
     int integer(int low, int high) const;
     bool flag() const;
-    std::string text() const;                                                ///< not empty
-    Vec3 vector() const;                                                     ///< [x, y, z]
-    Vec3 direction() const;                                                  ///< the same, made unit; not zero
-    Rgb color(double most = std::numeric_limits<double>::infinity()) const;  ///< [r, g, b] or one number for all, ≥ 0
-    Vec4 quaternion() const;  ///< [x, y, z, w], of length 1 within 1e-3, made unit
+    std::string text() const;                   ///< not empty
+    Vec3 vector() const;                        ///< [x, y, z], each within kFarthest
+    Vec3 direction() const;                     ///< the same, made unit; not zero
+    Rgb color(double most = kBrightest) const;  ///< [r, g, b] or one number for all, ≥ 0
+    Vec4 quaternion() const;                    ///< [x, y, z, w], of length 1 within 1e-3, made unit
     /// A name of `names`. \param what  "asset"  \return its index
     int nameIn(const JsonNames& names, const char* what) const;
     /// One of these words. \return which

@@ -85,6 +85,7 @@ struct SceneSpecular {
     /// Or a rough face, of microfacets of Beckmann's distribution with this α; views are sheared as its facets turn
     /// rays.
     double roughness = 0;
+    std::vector<std::filesystem::path> pictures{};  ///< the files of texture and filter
 
     bool scatters() const { return spread > 0 || roughness > 0; }
 };

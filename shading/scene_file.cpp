@@ -279,6 +279,10 @@ SceneDescription finished(ImportedScene in, const fs::path& path) {
     scene.file = path;
     markMoving(scene);
     const SceneBounds bounds = boundsOf(scene);
+    for (int i = 0; i < 3 && !bounds.empty; ++i)
+        if (const double most = std::max(-bounds.low[i], bounds.high[i]); !(most <= kFarthest))
+            throw Error(fmt::format("{}: expected all of the scene within {:g} of the origin, found a vertex at {:g}",
+                                    path.string(), kFarthest, most));
     if (!in.hasCamera)
         scene.camera = cameraSeeing(bounds);
     else if (scene.camera.near == 0 || scene.camera.far == 0)

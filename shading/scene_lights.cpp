@@ -78,7 +78,7 @@ SceneLight sceneLight(const std::string& name, const JsonField& field, const Sce
     out.name = name;
     Light& light = out.light;
     ifThere(field, "color", [&](const JsonField& f) { light.color = f.color(); });
-    ifThere(field, "intensity", [&](const JsonField& f) { light.color *= f.number(0); });
+    ifThere(field, "intensity", [&](const JsonField& f) { light.color *= f.number(0, kBrightest); });
     ifThere(field, "node", [&](const JsonField& f) { out.node = f.nameIn(names.nodes, "node"); });
     light.directional = type == 0;
     if (light.directional) {

@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 
 #include "core/image_file.hpp"
@@ -91,6 +92,8 @@ std::shared_ptr<const Image> lettered(const JsonField& field) {
     Image out(static_cast<int>(width), static_cast<int>(rows.size()), 4);
     for (std::size_t y = 0; y < rows.size(); ++y) {
         const std::string row = rows[y].text();
+        if (std::any_of(row.begin(), row.end(), [](char c) { return (c & 0x80) != 0; }))
+            rows[y].fail("expected ASCII letters, found " + row);
         if (row.size() != width) rows[y].fail(fmt::format("expected {} letters, found {}", width, row.size()));
         for (std::size_t x = 0; x < width; ++x) {
             out.setRgb(static_cast<int>(x), static_cast<int>(y), colors.at(std::string(1, row[x])).color());
@@ -119,17 +122,23 @@ SceneSpecular specular(const JsonField& field, const std::filesystem::path& fold
     ifThere(field, "texture", [&](const JsonField& f) {
         if (out.surface == 0) f.fail("expected \"surface\" beside it, found none");
         out.texture = named(f, [&] { return textureOf(scenePath(folder, f.text())); });
+        out.pictures.push_back(scenePath(folder, f.text()));
     });
-    ifThere(field, "filter", [&](const JsonField& f) { out.filter = filterOf(f, folder); });
-    ifThere(field, "fogDistance", [&](const JsonField& f) { out.fogDistance = f.positive(); });
+    ifThere(field, "filter", [&](const JsonField& f) {
+        out.filter = filterOf(f, folder);
+        if (f.value().is_string()) out.pictures.push_back(scenePath(folder, f.text()));
+    });
+    ifThere(field, "fogDistance", [&](const JsonField& f) { out.fogDistance = f.number(1e-6, kFarthest); });
     ifThere(field, "fog", [&](const JsonField& f) {
         if (out.fogDistance == 0) f.fail("expected \"fogDistance\" beside it, found none");
         out.fog = f.color();
     });
-    ifThere(field, "spread", [&](const JsonField& f) { out.spread = f.number(0, 10); });
+    // A face that spreads less is drawn clear: many samples of it would show nothing else.
+    const auto orClear = [](double spread) { return spread < 1e-4 ? 0 : spread; };
+    ifThere(field, "spread", [&](const JsonField& f) { out.spread = orClear(f.number(0, 10)); });
     ifThere(field, "roughness", [&](const JsonField& f) {
         if (out.spread > 0) f.fail("expected \"spread\" or \"roughness\", found both");
-        out.roughness = f.number(0, 1);
+        out.roughness = orClear(f.number(0, 1));
     });
     return out;
 }

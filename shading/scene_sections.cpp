@@ -13,14 +13,14 @@
 namespace nacre {
 namespace {
 
+constexpr double kNearest = 1e-6;
 constexpr int kMostSteps = 2048;  // of a shape made by formula, each way
-constexpr double kLargest = 1e9;  // lengths in floats
 
 float lengthOr(const JsonField& field, const char* key, float fallback) {
     const auto inner = field.find(key);
     if (!inner) return fallback;
     const double value = inner->positive();
-    if (value > kLargest) inner->number(0, kLargest);
+    if (value > kFarthest) inner->number(0, kFarthest);
     return static_cast<float>(value);
 }
 int stepsOr(const JsonField& field, const char* key, int least, int fallback) {
@@ -162,11 +162,11 @@ Camera sceneCamera(const JsonField& field) {
     });
     ifThere(field, "orthographicHeight", [&](const JsonField& f) {
         out.orthographic = true;
-        out.height = f.positive();
+        out.height = f.number(kNearest, kFarthest);
     });
     const auto near = field.find("near"), far = field.find("far");
-    out.near = near ? near->positive() : 0;
-    out.far = far ? far->positive() : 0;
+    out.near = near ? near->number(kNearest, kFarthest) : 0;
+    out.far = far ? far->number(kNearest, 1e3 * kFarthest) : 0;
     if (near && far && !(out.far > out.near))
         far->fail(fmt::format("expected more than near, {:g}, found {:g}", out.near, out.far));
     return out;

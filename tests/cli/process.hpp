@@ -25,6 +25,7 @@ struct Surroundings {
     std::string input;
     std::string stdoutPath;  ///< instead of a file in the scratch folder
     rlim_t fileSize = RLIM_INFINITY;
+    bool closed = false;    ///< standard input and error, as daemons' often are
     bool asNobody = false;  ///< root may write anywhere: be somebody else
 };
 
@@ -39,6 +40,7 @@ inline void becomeChild(const Surroundings& setup, const Scratch& scratch) {
     ::dup2(::open((scratch / "in").c_str(), O_RDONLY), 0);
     ::dup2(::open(out.c_str(), O_WRONLY | O_CREAT, 0600), 1);
     ::dup2(::open((scratch / "err").c_str(), O_WRONLY | O_CREAT, 0600), 2);
+    if (setup.closed) ::close(0), ::close(2);
     if (setup.fileSize != RLIM_INFINITY) {
         const rlimit limit{setup.fileSize, setup.fileSize};
         ::setrlimit(RLIMIT_FSIZE, &limit);

@@ -101,6 +101,16 @@ TEST(CommandRenderPipes, AnyNumberDrawsThePictureOfOne) {
     }
 }
 
+// Sockets would take the numbers of closed standard descriptors, and be overwritten by what a pipe puts there.
+TEST(CommandRenderPipes, StandardDescriptorsMayBeClosed) {
+    const Scratch scratch;
+    Surroundings daemon;
+    daemon.closed = true;
+    const Outcome run = nacre(rendering(scratch, "pipes.exr", {"--pipes", "3"}), daemon);
+    ASSERT_EQ(run.code, 0) << run.out;
+    EXPECT_EQ(json::parse(run.out)["pipes"]["draw_seconds"].size(), 3u);
+}
+
 std::vector<pid_t> childrenOf(pid_t process) {
     const std::string id = std::to_string(process);
     std::ifstream file("/proc/" + id + "/task/" + id + "/children");

@@ -308,6 +308,22 @@ TEST(CommandRender, PicturesThatBelongTogetherAppearTogether) {
         EXPECT_EQ(entry.path().filename().string(), "scene.json") << "nothing half-written";
 }
 
+TEST(CommandRender, WhatTheSceneReadsIsNotReplaced) {
+    const Scratch scratch;
+    ASSERT_EQ(nacre({"factorize", "lambert:kd=0.5", "-o", scratch / "matt.exr"}).code, 0);
+    ASSERT_EQ(nacre({"render", sceneFile(scratch), "-o", scratch / "tint.png", "--size", "8x8"}).code, 0);
+    writeFile(scratch / "reads.json", R"({"nacre_scene": 1, "assets": {"matt": {"file": "matt.exr"}},
+        "meshes": {"square": {"quad": {"size": 2}}},
+        "materials": {"m": {"brdf": "matt"}, "pane": {"specular": {"ior": 1.5, "filter": "tint.png"}}},
+        "nodes": {"n": {"mesh": "square", "material": "m"}, "p": {"mesh": "square", "material": "pane", "translation": [0, 0, 1]}}})");
+    for (const char* file : {"matt.exr", "tint.png", "reads.json"}) {
+        const std::string before = tests::contents(scratch / file);
+        const Outcome run = nacre({"render", scratch / "reads.json", "-o", scratch / file, "--size", "8x8"});
+        EXPECT_EQ(run.code, 2) << file;
+        EXPECT_EQ(tests::contents(scratch / file), before) << file;
+    }
+}
+
 TEST(CommandRender, MeshFilesAndEmptyScenes) {
     const Scratch scratch;
     writeFile(scratch / "triangle.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");

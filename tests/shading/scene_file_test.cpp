@@ -128,8 +128,8 @@ TEST_F(SceneFile, WrongTypesAndRanges) {
     refuses(R"("meshes": {"m": {"sphere": {"segments": 2}}})", "/meshes/m/sphere/segments", "3 to 2048, found 2");
     refuses(R"("materials": {"m": {"ambient": [1, 2]}})", "/materials/m/ambient",
             "expected an array of 3, found an array of 2");
-    refuses(R"("materials": {"m": {"ambient": [1, 2, -1]}})", "/materials/m/ambient/2", "at least 0");
-    refuses(R"("camera": {"eye": [0, 0, "3"]})", "/camera/eye/2", "expected a number, found \"3\"");
+    refuses(R"("materials": {"m": {"ambient": [1, 2, -1]}})", "/materials/m/ambient/2", "from 0 to 1e+15, found -1");
+    refuses(R"("camera": {"eye": [0, 0, "3"]})", "/camera/eye/2", "to 1e+09, found \"3\"");
     refuses(R"("camera": {"eye": [0, 0, 0]})", "/camera", "apart");
     refuses(R"("camera": {"up": [0, 0, 1]})", "/camera", "along");
     refuses(R"("camera": {"near": 2, "far": 1})", "/camera/far", "more than near");
@@ -151,6 +151,15 @@ TEST_F(SceneFile, WrongTypesAndRanges) {
     refuses(
         R"("nodes": {"n": {}}, "animation": {"tracks": [{"node": "n", "path": "rotation", "times": [0, 1], "axis": [0,1,0], "anglesDeg": [0, 270]}]})",
         "/animation/tracks/0/anglesDeg/1", "180");
+    refuses(R"("lights": {"l": {"type": "point", "intensity": 1e300}})", "/lights/l/intensity", "to 1e+15");
+    refuses(R"("lights": {"l": {"type": "point", "position": [0, 1e39, 0]}})", "/lights/l/position/1", "to 1e+09");
+    refuses(R"("camera": {"near": 1e-300})", "/camera/near", "from 1e-06");
+    const std::string vast = R"("meshes": {"q": {"quad": {"size": 1e9}}}, "materials": {"m": {}},
+        "nodes": {"n": {"mesh": "q", "material": "m", "scale": 10}})";
+    EXPECT_THAT(errorOf(sceneText(vast)),
+                HasSubstr("scene.json: expected all of the scene within 1e+09 of the origin, found a vertex at 5e+09"));
+    refuses(R"("materials": {"m": {"specular": {"filter": {"colors": {"a": 1}, "rows": ["é"]}}}})",
+            "/materials/m/specular/filter/rows/0", "ASCII letters, found é");
     std::string deep;
     for (int i = 0; i < 100; ++i) deep += "[";
     EXPECT_THAT(errorOf(deep), HasSubstr("levels"));
