@@ -105,6 +105,7 @@ json compareStages(const SceneDescription& scene, const HybridPictures& p, std::
 std::string textOf(const json& data) {
     std::string out = fmt::format("{}: {} x {} pixels\n", data["output"].get<std::string>(), data["width"].get<int>(),
                                   data["height"].get<int>());
+    out += notesText(data["notes"]);
     if (data.contains("virtual_lights")) {
         const json& v = data["virtual_lights"];
         out += fmt::format("{} virtual lights of {} elements, {:.1f} % of the power left out, {:.1f} % clamped\n",
@@ -206,7 +207,9 @@ std::vector<Option> hybridOptions(HybridPictures& p) {
         light("--elements", "N", "That surfaces are cut into, at least (default 32768)",
               integerInto([&p](long long v) { p.lights.elements.least = static_cast<int>(v); }, 1, 1 << 22)),
         {"--specular", "METHOD",
-         "Mirrors and panes by views (default; planar ones), or traced: rays on the CPU, curved ones too",
+         "Mirrors and panes by views (default; planar ones), or traced: rays on the CPU, curved ones too. Traced "
+         "leaves\n"
+         "out the lamps' light that they send on (--light-paths), and so does its reference",
          [&p](const std::string& text) {
              if (text != "views" && text != "traced")
                  throw UsageError(fmt::format("expected views or traced, found '{}'", text));
@@ -277,6 +280,7 @@ void renderHybrid(const Context& context, SceneDescription scene, const HybridPi
                  {"time", p.shot.time},
                  {"seconds", watch.seconds()},
                  {"cpu_seconds", watch.cpuSeconds()},
+                 {"notes", lightNotes(scene, p.traced)},
                  {"renderer", gl.description()}};
     data.update(reportJson(piped.frame.report, p));
     if (!piped.data.is_null()) data["pipes"] = piped.data;

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "cli/output_file.hpp"
 #include "cli/verb.hpp"
 #include "reference/albedo.hpp"
@@ -9,6 +11,7 @@
 #include "reference/scene_truths.hpp"
 #include "shading/multipass/quality.hpp"
 #include "shading/multipass/radiosity.hpp"
+#include "shading/multipass/specular_face.hpp"
 
 namespace nacre::cli {
 
@@ -38,6 +41,21 @@ int qualityOf(const std::string& text) {
     } catch (const std::invalid_argument& error) {
         throw UsageError(error.what());
     }
+}
+
+std::vector<std::string> lightNotes(const SceneDescription& scene, bool traced) {
+    const bool shadows = std::any_of(scene.lights.begin(), scene.lights.end(),
+                                     [](const SceneLight& light) { return light.shadow.has_value(); });
+    std::vector<std::string> out;
+    if (traced && shadows && hasSpecular(scene))
+        out.emplace_back("light by way of mirrors and panes is left out, of the reference too (--light-paths)");
+    return out;
+}
+
+std::string notesText(const nlohmann::json& notes) {
+    std::string out;
+    for (const nlohmann::json& note : notes) out += fmt::format("note: {}\n", note.get<std::string>());
+    return out;
 }
 
 nlohmann::json volumesJson(const ShadowVolumeCounts& c) {

@@ -16,6 +16,11 @@ std::optional<SampledShadowMethod> sampledShadowsOf(const std::string& text);
 SoftShadows softShadowsOf(const std::string& text);
 int qualityOf(const std::string& text);
 
+/// What of lamps' light a picture lacks. \param traced  specular surfaces are, and send none of it on
+std::vector<std::string> lightNotes(const SceneDescription& scene, bool traced);
+/// A line each.
+std::string notesText(const nlohmann::json& notes);
+
 nlohmann::json volumesJson(const ShadowVolumeCounts& counts);
 
 /// Of each material's unbaked BRDF at 45 degrees, at most 0.99; 0 without one.

@@ -120,13 +120,15 @@ SceneSwitches switchesFor(const Settings& s, const SceneDescription& scene) {
 
 void runHybrid(const Context& context, const Settings& s, SceneDescription scene) {
     HybridPictures p = s.hybrid;
-    for (const auto& [given, flag] : {std::pair(s.shares, "--shares"),
-                                      {s.shot.interreflection, "--radiosity"},
-                                      {s.lightPaths.has_value(), "--light-paths"},
-                                      {s.quality != 0, "--quality"}})
+    for (const auto& [given, flag] :
+         {std::pair(s.shares, "--shares"), {s.shot.interreflection, "--radiosity"}, {s.quality != 0, "--quality"}})
         if (given)
             throw UsageError(
                 fmt::format("{}: expected none of --indirect, --specular traced and sampled shadows beside it", flag));
+    if (s.lightPaths.value_or(0) != 0)
+        throw UsageError(
+            fmt::format("--light-paths: expected 0 beside --indirect, --specular traced and sampled shadows, found {}",
+                        *s.lightPaths));
     if (!p.traced && hasSpecular(scene))
         throw UsageError(
             fmt::format("{}: expected --specular traced beside it in a scene with mirrors or panes, found none",
@@ -262,7 +264,8 @@ std::vector<Option> sceneOptions(const std::shared_ptr<Settings>& s) {
          "frosted faces and of lights' areas",
          only(s->sceneFlag, "--quality", [s](const std::string& text) { s->quality = qualityOf(text); })},
         {"--light-paths", "N",
-         "Mirrors and panes along a path from a light that has shadows, 0 to 4 (default 2; 0 with voxel volumes)",
+         "Mirrors and panes along a path from a light that has shadows, 0 to 4 (default 2; 0 with voxel volumes,\n"
+         "--indirect, --specular traced and sampled shadows)",
          only(s->sceneFlag, "--light-paths",
               integerInto([s](long long v) { s->lightPaths = static_cast<int>(v); }, 0, kMostLightBounces))},
         {"--passes", "", "Print the passes that draw a scene, and draw nothing",

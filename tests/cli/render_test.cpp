@@ -236,10 +236,14 @@ TEST(CommandRender, InStages) {
     for (const char* flag : {"--radiosity", "--shares", "--passes"})
         refused({"--specular", "traced", flag}, std::string(flag) + ": expected none of --indirect");
     refused({"--specular", "traced", "--quality", "low"}, "--quality: expected none of");
-    refused({"--specular", "traced", "--light-paths", "1"}, "--light-paths: expected none of");
+    refused({"--specular", "traced", "--light-paths", "1"}, "--light-paths: expected 0 beside --indirect");
     for (const char* stage : {"", "-direct", "-indirect", "-traced"})
         for (const char* what : {"", "-reference", "-difference"})
             EXPECT_TRUE(std::filesystem::exists(scratch / (std::string("s") + stage + what + ".png"))) << stage << what;
+    const Outcome text = nacre(
+        {"render", scene, "-o", scratch / "t.png", "--size", "16x16", "--specular", "traced", "--light-paths", "0"});
+    ASSERT_EQ(text.code, 0) << text.err;
+    EXPECT_THAT(text.out, HasSubstr("note: light by way of mirrors and panes is left out"));
     const Outcome views = nacre({"render", scene, "-o", scratch / "v.png"});
     EXPECT_EQ(views.code, 1) << "views of planar mirrors alone";
     EXPECT_THAT(views.err, HasSubstr("--specular traced draws curved meshes"));
