@@ -55,11 +55,12 @@ json secondsByPass(const HybridReport& report) {
         const bool specular = stage.name == "tags" || stage.name == "traced";
         const char* pass = stage.name == "composite"                            ? "composite"
                            : specular                                           ? "specular"
+                           : stage.name == "shadows"                            ? "shadow"
                            : stage.name == "direct" || stage.name == "geometry" ? "direct"
                                                                                 : "indirect";
         out[pass] = out[pass].get<double>() + stage.wallSeconds;
     }
-    out["shadow"] = report.shadowSeconds;
+    out["shadow"] = out["shadow"].get<double>() + report.shadowSeconds;
     out["direct"] = out["direct"].get<double>() - report.shadowSeconds;
     return out;
 }

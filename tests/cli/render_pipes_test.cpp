@@ -101,6 +101,19 @@ TEST(CommandRenderPipes, AnyNumberDrawsThePictureOfOne) {
     }
 }
 
+TEST(CommandRenderPipes, SampledShadowsTimeIsShadows) {
+    const Scratch scratch;
+    for (const char* method : {"sampled-maps", "sampled-volumes"}) {
+        const Outcome run =
+            nacre({"render", room(scratch), "-o", scratch / "s.png", "--size", "48x48", "--samples", "1", "--specular",
+                   "traced", "--shadows", method, "--pipes", "2", "--repeat", "2", "--json"});
+        ASSERT_EQ(run.code, 0) << run.err;
+        const json shares = json::parse(run.out)["pipes"]["shares"];
+        EXPECT_GT(shares["shadow"], 0) << method;
+        EXPECT_EQ(shares["indirect"], 0) << method << ": there is none";
+    }
+}
+
 std::vector<pid_t> childrenOf(pid_t process) {
     const std::string id = std::to_string(process);
     std::ifstream file("/proc/" + id + "/task/" + id + "/children");
