@@ -139,6 +139,7 @@ std::string textOf(const json& data) {
         out += "\n";
     }
     if (!data.contains("errors")) return out;
+    out += fmt::format("against the reference, traced in {:.1f} s\n", data["errors"]["trace_seconds"].get<double>());
     for (const auto& [name, e] : data["errors"].items())
         if (e.is_object())
             out += fmt::format("{:<10} PSNR {:6.2f} dB, relative RMSE {:.4f}, RMS/mean {:.4f}\n", name,

@@ -73,7 +73,7 @@ std::vector<Rgb> albedosOf(const SceneDescription& scene) {
     return out;
 }
 
-nlohmann::json addRadiosity(SceneRenderer& renderer, double time) {
+nlohmann::json addRadiosity(SceneRenderer& renderer, double time, const Progress& progress) {
     const Stopwatch watch;
     const SceneDescription& scene = renderer.scene();
     const std::vector<Rgb> albedos = albedosOf(scene);
@@ -82,7 +82,7 @@ nlohmann::json addRadiosity(SceneRenderer& renderer, double time) {
         const double length = glm::length(b - a);
         return !rays.shadowed(a, (b - a) / length, length);
     };
-    const IndirectLight light = sceneIndirectLight(scene, time, albedos, visible);
+    const IndirectLight light = sceneIndirectLight(scene, time, albedos, visible, {.progress = progress});
     renderer.setIndirectLight(light.radiance);
     return {{"shots", light.shots}, {"left", light.left}, {"seconds", watch.seconds()}};
 }

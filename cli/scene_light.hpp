@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
+#include "core/progress.hpp"
 #include "shading/hybrid/sampled_shadows.hpp"
 #include "shading/scene_renderer.hpp"
 
@@ -28,6 +29,6 @@ std::vector<Rgb> albedosOf(const SceneDescription& scene);
 
 /// Gives the renderer light between the scene's meshes as they stand at `time`: albedos of the unbaked BRDFs at 45
 /// degrees, visibility by rays. \return  shots, the share of the power left unshot, seconds
-nlohmann::json addRadiosity(SceneRenderer& renderer, double time);
+nlohmann::json addRadiosity(SceneRenderer& renderer, double time, const Progress& progress = {});
 
 }  // namespace nacre::cli

@@ -89,8 +89,9 @@ json toJson(const SceneErrors& e) {
 }
 
 std::string errorText(const SceneErrors& e) {
-    std::string out = fmt::format("against the reference: PSNR {:.2f} dB, relative RMSE {:.4f}, RMS/mean {:.4f}\n",
-                                  e.all.psnrSrgb, e.all.relative, e.all.rmsOverMean);
+    std::string out = fmt::format(
+        "against the reference, traced in {:.1f} s: PSNR {:.2f} dB, relative RMSE {:.4f}, RMS/mean {:.4f}\n", e.seconds,
+        e.all.psnrSrgb, e.all.relative, e.all.rmsOverMean);
     out += fmt::format("  where meshes block the surrounding's light: PSNR {:.2f} dB, relative RMSE {:.4f}\n",
                        e.occluded.psnrSrgb, e.occluded.relative);
     if (e.shares.empty()) return out;
@@ -181,10 +182,7 @@ void runRender(const Context& context, const Settings& s) {
     SceneRenderer renderer(loader, std::move(scene));
     renderer.switches = atQuality(switches, s.quality);
     json radiosity;
-    if (s.shot.interreflection) {
-        report(progress, "radiosity", 0);
-        radiosity = addRadiosity(renderer, s.shot.time);
-    }
+    if (s.shot.interreflection) radiosity = addRadiosity(renderer, s.shot.time, progress);
     report(progress, "drawing", 0);
     const Stopwatch watch;
     const Image picture = shoot(renderer, s.shot);
@@ -335,7 +333,11 @@ std::vector<Option> options(const std::shared_ptr<Settings>& s) {
         {"--samples", "N", "N x N shaded samples a pixel (default 2)",
          integerInto([s](long long v) { s->shot.samples = static_cast<int>(v); }, 1, 8)},
         {"--white", "W", "Radiance shown as white in PNG", positiveInto([s](double v) { s->white = v; })},
-        {"--reference", "", "Trace the same, and print the error", into(s->reference)}};
+        {"--reference", "",
+         "Trace the same, and print the error and the time that it took: minutes where there are many panes, less "
+         "with\n"
+         "a smaller --size, fewer --rays and --light-paths 0 or 1",
+         into(s->reference)}};
     for (Option& option : sceneOptions(s)) out.push_back(std::move(option));
     for (Option& option : hybridOptions(s->hybrid)) {
         option.take = only(s->sceneFlag, option.flags, std::move(option.take));

@@ -17,6 +17,7 @@ namespace {
 
 using nlohmann::json;
 using ::testing::AllOf;
+using ::testing::ContainsRegex;
 using ::testing::HasSubstr;
 using tests::nacre;
 using tests::Outcome;
@@ -99,9 +100,10 @@ TEST(CommandRender, DrawsAndComparesWithTheReference) {
     EXPECT_EQ(reference.height(), 64);
     EXPECT_TRUE(std::filesystem::exists(scratch / "a-difference.png"));
     const Outcome text =
-        nacre({"render", sceneFile(scratch), "-o", scratch / "a.png", "--size", "32x32", "--reference"});
+        nacre({"render", sceneFile(scratch), "-o", scratch / "a.png", "--size", "32x32", "--reference", "--quiet"});
     ASSERT_EQ(text.code, 0) << text.err;
-    EXPECT_THAT(text.out, AllOf(HasSubstr("a.png: 32 x 32 pixels"), HasSubstr("PSNR")));
+    EXPECT_THAT(text.out, AllOf(HasSubstr("a.png: 32 x 32 pixels"), HasSubstr("PSNR"),
+                                ContainsRegex("reference, traced in [0-9.]+ s: ")));
     EXPECT_EQ(text.err, "");
 }
 
@@ -221,6 +223,7 @@ TEST(CommandRender, InStages) {
     EXPECT_GE(data["virtual_lights"]["clamped_share"], 0);
     EXPECT_GT(data["traced"]["pixels"], 100);
     EXPECT_GT(data["stage_seconds"]["virtual lights"], 0);
+    EXPECT_GT(data["errors"]["trace_seconds"], 0);
     EXPECT_LT(data["errors"]["indirect"]["rms_over_mean"], 0.2) << "64 lights; the truth has 256 paths a pixel";
     EXPECT_LT(data["errors"]["traced"]["relative_rmse"], 0.05);
     EXPECT_GT(data["errors"]["blended"]["psnr"], 35);
@@ -240,10 +243,11 @@ TEST(CommandRender, InStages) {
     for (const char* stage : {"", "-direct", "-indirect", "-traced"})
         for (const char* what : {"", "-reference", "-difference"})
             EXPECT_TRUE(std::filesystem::exists(scratch / (std::string("s") + stage + what + ".png"))) << stage << what;
-    const Outcome text = nacre(
-        {"render", scene, "-o", scratch / "t.png", "--size", "16x16", "--specular", "traced", "--light-paths", "0"});
+    const Outcome text = nacre({"render", scene, "-o", scratch / "t.png", "--size", "16x16", "--specular", "traced",
+                                "--light-paths", "0", "--reference", "--rays", "1"});
     ASSERT_EQ(text.code, 0) << text.err;
-    EXPECT_THAT(text.out, HasSubstr("note: light by way of mirrors and panes is left out"));
+    EXPECT_THAT(text.out, AllOf(HasSubstr("note: light by way of mirrors and panes is left out"),
+                                ContainsRegex("reference, traced in [0-9.]+ s")));
     const Outcome views = nacre({"render", scene, "-o", scratch / "v.png"});
     EXPECT_EQ(views.code, 1) << "views of planar mirrors alone";
     EXPECT_THAT(views.err, HasSubstr("--specular traced draws curved meshes"));
