@@ -1,6 +1,7 @@
 // A scene as drawn against the same scene traced, and what each approximation has to do with the difference.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -38,7 +39,7 @@ struct SceneErrors {
     Image reference;
     double white = 1;  ///< pictureWhite(reference)
     ImageDifference all;
-    ImageDifference occluded;  ///< against a reference whose meshes block the surrounding's light
+    std::optional<ImageDifference> occluded;  ///< where a surrounding lights: its light blocked by meshes, too
     std::vector<SceneShare> shares;
     std::vector<std::string> notes;
     double seconds = 0;  ///< of tracing

@@ -77,11 +77,8 @@ void takeSize(SceneShot& shot, const std::string& text) {
 }
 
 json toJson(const SceneErrors& e) {
-    json out = {{"white", e.white},
-                {"all", differenceJson(e.all)},
-                {"surrounding_occluded", differenceJson(e.occluded)},
-                {"trace_seconds", e.seconds},
-                {"notes", e.notes}};
+    json out = {{"white", e.white}, {"all", differenceJson(e.all)}, {"trace_seconds", e.seconds}, {"notes", e.notes}};
+    if (e.occluded) out["surrounding_occluded"] = differenceJson(*e.occluded);
     for (const SceneShare& s : e.shares)
         out["shares"].push_back(
             {{"name", s.name}, {"psnr_off", s.psnrOff}, {"psnr_without", s.psnrWithout}, {"share", s.share}});
@@ -92,8 +89,9 @@ std::string errorText(const SceneErrors& e) {
     std::string out = fmt::format(
         "against the reference, traced in {:.1f} s: PSNR {:.2f} dB, relative RMSE {:.4f}, RMS/mean {:.4f}\n", e.seconds,
         e.all.psnrSrgb, e.all.relative, e.all.rmsOverMean);
-    out += fmt::format("  where meshes block the surrounding's light: PSNR {:.2f} dB, relative RMSE {:.4f}\n",
-                       e.occluded.psnrSrgb, e.occluded.relative);
+    if (e.occluded)
+        out += fmt::format("  where meshes block the surrounding's light: PSNR {:.2f} dB, relative RMSE {:.4f}\n",
+                           e.occluded->psnrSrgb, e.occluded->relative);
     if (e.shares.empty()) return out;
     out += fmt::format("{:<16} {:>14} {:>20} {:>16}\n", "approximation", "PSNR if off", "PSNR without it",
                        "share of error");
@@ -229,9 +227,10 @@ constexpr const char* kDetails =
     "is\n"
     "sRGB of radiance over a white, 1.5 times the 90th percentile (of the reference, when there is one).\n"
     "With --reference the same scene is traced from the unbaked sources: OUT-reference beside OUT, and\n"
-    "OUT-difference.png, in which white stands for 0.2 in sRGB. PSNR is of sRGB values clamped to [0, 1]. A "
-    "second\n"
-    "figure is against a reference whose meshes also block the surrounding's light, which no pass here does.\n"
+    "OUT-difference.png, in which white stands for 0.2 in sRGB. Of the difference of picture and reference, PSNR is\n"
+    "of sRGB values clamped to [0, 1], in linear radiance relative RMSE is its root mean square over the reference's,\n"
+    "RMS/mean over the reference's mean. Where a surrounding lights something a second figure is against a reference\n"
+    "whose meshes also block its light and ambient light, which no pass here does.\n"
     "With --shares each approximation is switched off alone: PSNR of the picture without it against the full\n"
     "reference; PSNR of both without it (BRDF: the reference takes the baked one); and the share of the mean "
     "square\n"
