@@ -126,13 +126,12 @@ std::string textOf(const json& data) {
                                s["volume_seconds"].get<double>(), s["volume_psnr"].get<double>());
         out += '\n';
     }
-    if (data.contains("repeated"))
-        out += fmt::format("drawn again: {:.2f} frames/s\n", data["repeated"]["frames_per_second"].get<double>());
+    out += repeatedText(data);
     for (const auto& [name, seconds] : data["stage_seconds"].items())
         out += fmt::format("{:<16} {:8.3f} s\n", name, seconds.get<double>());
     if (data.contains("pipes")) {
         const json& f = data["pipes"];
-        out += fmt::format("{} pipes, {}: {:.4f} s a frame;", f["count"].get<int>(),
+        out += fmt::format("{} pipe{}, {}: {:.4f} s a frame;", f["count"].get<int>(), f["count"] == 1 ? "" : "s",
                            f["compositing"].get<std::string>(), f["frame_seconds"].get<double>());
         for (const auto& [pass, share] : f["shares"].items())
             out += fmt::format(" {} {:.1f} %", pass, 100 * share.get<double>());
@@ -281,7 +280,7 @@ void renderHybrid(const Context& context, SceneDescription scene, const HybridPi
                  {"time", p.shot.time},
                  {"seconds", watch.seconds()},
                  {"cpu_seconds", watch.cpuSeconds()},
-                 {"notes", lightNotes(scene, p.traced)},
+                 {"notes", lightNotes(scene, p.traced, !p.shadows && mapsShadows(p.switches))},
                  {"renderer", gl.description()}};
     data.update(reportJson(piped.frame.report, p));
     if (!piped.data.is_null()) data["pipes"] = piped.data;

@@ -1,6 +1,7 @@
 #include "cli/scene_errors.hpp"
 
 #include <algorithm>
+#include <limits>
 
 #include "cli/output_file.hpp"
 
@@ -78,6 +79,18 @@ Image shoot(SceneRenderer& renderer, const SceneShot& shot) {
     const RenderTarget target({.width = n * shot.width, .height = n * shot.height});
     renderer.render(target, shot.time);
     return shrunk(target.read(), n);
+}
+
+double fastestFrame(SceneRenderer& renderer, const SceneShot& shot, int frames) {
+    const RenderTarget target({.width = shot.samples * shot.width, .height = shot.samples * shot.height});
+    double least = std::numeric_limits<double>::infinity();
+    for (int i = 0; i < frames; ++i) {
+        const Stopwatch watch;
+        renderer.render(target, shot.time);
+        target.read();
+        least = std::min(least, watch.seconds());
+    }
+    return least;
 }
 
 SceneErrors measureScene(SceneRenderer& renderer, const Image& picture, const SceneShot& shot, int rays, bool shares,

@@ -27,6 +27,9 @@ Image shrunk(const Image& fine, int n);
 /// Draws with the renderer's switches and reads back.
 Image shoot(SceneRenderer& renderer, const SceneShot& shot);
 
+/// The fastest of so many frames, drawn and read back, once programs and casters are there [s].
+double fastestFrame(SceneRenderer& renderer, const SceneShot& shot, int frames);
+
 /// One approximation. Errors are of sRGB values, as ImageDifference::psnrSrgb; all with the full reference's white.
 struct SceneShare {
     std::string name;        ///< brdf, shadow maps, relief shadows, indirect light, surrounding

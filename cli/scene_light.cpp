@@ -43,12 +43,16 @@ int qualityOf(const std::string& text) {
     }
 }
 
-std::vector<std::string> lightNotes(const SceneDescription& scene, bool traced) {
-    const bool shadows = std::any_of(scene.lights.begin(), scene.lights.end(),
-                                     [](const SceneLight& light) { return light.shadow.has_value(); });
+std::vector<std::string> lightNotes(const SceneDescription& scene, bool traced, bool maps) {
+    const auto any = [&](bool area) {
+        return std::any_of(scene.lights.begin(), scene.lights.end(),
+                           [&](const SceneLight& light) { return light.shadow && (light.area || !area); });
+    };
     std::vector<std::string> out;
-    if (traced && shadows && hasSpecular(scene))
+    if (traced && any(false) && hasSpecular(scene))
         out.emplace_back("light by way of mirrors and panes is left out, of the reference too (--light-paths)");
+    if (maps && any(true))
+        out.emplace_back("shadow maps take lamps with an area as their middle, a reference has them soft (--shadows)");
     return out;
 }
 
@@ -56,6 +60,11 @@ std::string notesText(const nlohmann::json& notes) {
     std::string out;
     for (const nlohmann::json& note : notes) out += fmt::format("note: {}\n", note.get<std::string>());
     return out;
+}
+
+std::string repeatedText(const nlohmann::json& data) {
+    if (!data.contains("repeated")) return "";
+    return fmt::format("drawn again: {:.2f} frames/s\n", data["repeated"]["frames_per_second"].get<double>());
 }
 
 nlohmann::json volumesJson(const ShadowVolumeCounts& c) {

@@ -17,10 +17,13 @@ std::optional<SampledShadowMethod> sampledShadowsOf(const std::string& text);
 SoftShadows softShadowsOf(const std::string& text);
 int qualityOf(const std::string& text);
 
-/// What of lamps' light a picture lacks. \param traced  specular surfaces are, and send none of it on
-std::vector<std::string> lightNotes(const SceneDescription& scene, bool traced);
+/// What of lamps' light a picture lacks. \param traced  specular surfaces are, and send none of it on \param maps  cast
+/// the shadows
+std::vector<std::string> lightNotes(const SceneDescription& scene, bool traced, bool maps);
 /// A line each.
 std::string notesText(const nlohmann::json& notes);
+/// Of data["repeated"], when it is there.
+std::string repeatedText(const nlohmann::json& data);
 
 nlohmann::json volumesJson(const ShadowVolumeCounts& counts);
 

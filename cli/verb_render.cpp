@@ -197,12 +197,17 @@ void runRender(const Context& context, const Settings& s) {
                  {"programs", renderer.programs().size()},
                  {"renderer", gl.description()}};
     if (s.shot.interreflection) data["radiosity"] = radiosity;
+    const int repeats = s.hybrid.pipes.repeat;
+    if (repeats > 0)
+        data["repeated"] = {{"frames", repeats}, {"frames_per_second", 1 / fastestFrame(renderer, s.shot, repeats)}};
+    data["notes"] = lightNotes(renderer.scene(), false, mapsShadows(switches));
     data["light_paths"] = lightCountsJson(renderer.schedule());
     if (s.switches.shadowMethod == ShadowMethod::Volumes || !renderer.schedule().lights.empty())
         data["shadow_volumes"] = volumesJson(renderer.shadowVolumes());
     double white = s.white > 0 ? s.white : pictureWhite(picture);
     std::string text = fmt::format("{}: {} x {} pixels of {} samples, {} programs\n", s.output, s.shot.width,
-                                   s.shot.height, s.shot.samples * s.shot.samples, renderer.programs().size());
+                                   s.shot.height, s.shot.samples * s.shot.samples, renderer.programs().size()) +
+                       notesText(data["notes"]) + repeatedText(data);
     PictureSet pictures;
     if (s.reference || s.shares) {
         renderer.switches = switches;  // whatever the quality, against all

@@ -114,6 +114,23 @@ TEST(CommandRenderPipes, SampledShadowsTimeIsShadows) {
     }
 }
 
+TEST(CommandRenderPipes, TextSaysWhatIsLeftOut) {
+    const Scratch scratch;
+    const auto text = [&](const std::vector<std::string>& more) {
+        std::vector<std::string> all = {"render", room(scratch), "-o",         scratch / "t.png",
+                                        "--size", "16x16",       "--specular", "traced"};
+        all.insert(all.end(), more.begin(), more.end());
+        const Outcome run = nacre(all);
+        EXPECT_EQ(run.code, 0) << run.err;
+        return run.out;
+    };
+    const std::string maps = text({"--pipes", "1"});
+    EXPECT_THAT(maps, HasSubstr("note: shadow maps take lamps with an area as their middle"));
+    EXPECT_THAT(maps, HasSubstr("1 pipe, "));
+    for (const char* method : {"volumes", "sampled-maps"})
+        EXPECT_THAT(text({"--shadows", method}), testing::Not(HasSubstr("shadow maps take"))) << method;
+}
+
 std::vector<pid_t> childrenOf(pid_t process) {
     const std::string id = std::to_string(process);
     std::ifstream file("/proc/" + id + "/task/" + id + "/children");
@@ -219,6 +236,7 @@ TEST_F(MpiRanks, DrawThePictureOfOne) {
             ASSERT_EQ(run.code, 0) << run.err;
             EXPECT_LT(difference(scratch / "alone.exr", scratch / "mpi.exr"), 1.0 / 255) << count;
             EXPECT_EQ(json::parse(run.out)["pipes"]["count"], count);
+            EXPECT_EQ(run.err.find("--mpi: found one rank") != std::string::npos, count == 1) << run.err;
             std::filesystem::remove(scratch / "mpi.exr");
         }
 }

@@ -274,6 +274,18 @@ TEST(CommandRender, InStages) {
     }
 }
 
+TEST(CommandRender, FramesASecondOfAPlainPicture) {
+    const Scratch scratch;
+    const Outcome run =
+        nacre({"render", sceneFile(scratch), "-o", scratch / "a.png", "--size", "16x16", "--repeat", "3", "--json"});
+    ASSERT_EQ(run.code, 0) << run.err;
+    EXPECT_EQ(json::parse(run.out)["repeated"]["frames"], 3);
+    EXPECT_GT(json::parse(run.out)["repeated"]["frames_per_second"], 0);
+    const Outcome text =
+        nacre({"render", sceneFile(scratch), "-o", scratch / "a.png", "--size", "16x16", "--repeat", "1"});
+    EXPECT_THAT(text.out, HasSubstr(" frames/s\n"));
+}
+
 TEST(CommandRender, OptionsThatNothingReadsAreRefused) {
     const Scratch scratch;
     const std::string scene = sceneFile(scratch), output = scratch / "a.png";
