@@ -140,7 +140,8 @@ TEST(CommandRender, MirrorsAndPanesAreDrawnTracedAndListed) {
     EXPECT_LT(json::parse(low.out)["passes"], json::parse(run.out)["passes"]);
     EXPECT_LT(json::parse(low.out)["errors"]["all"]["psnr"], json::parse(run.out)["errors"]["all"]["psnr"])
         << "against the same reference";
-    EXPECT_THAT(nacre({"info", scene}).out, HasSubstr("specular mirror"));
+    EXPECT_THAT(nacre({"info", scene}).out,
+                AllOf(HasSubstr("specular mirror\n"), HasSubstr("specular index 1.5\n"), HasSubstr("ambient 0.05")));
     const auto render = [&](const char* lights) {
         const Outcome out = nacre({"render", scene, "-o", scratch / "l.png", "--size", "96x64", "--shadows", "volumes",
                                    "--light-paths", lights, "--reference", "--json"});
@@ -160,6 +161,23 @@ TEST(CommandRender, MirrorsAndPanesAreDrawnTracedAndListed) {
     EXPECT_EQ(deep.code, 1);
     EXPECT_THAT(deep.err, HasSubstr("at most 127 with 8 bits of stencil"));
     EXPECT_FALSE(std::filesystem::exists(scratch / "d.png"));
+}
+
+TEST(CommandInfo, TellsOfFacesThatScatterAndOfAreas) {
+    const Scratch scratch;
+    writeFile(scratch / "s.json", R"({
+        "nacre_scene": 1,
+        "meshes": {"square": {"quad": {"size": 2}}},
+        "materials": {"frosted": {"specular": {"ior": 1.5, "spread": 0.05, "surface": 0.25, "filter": {"colors": {"r": [1, 0, 0]}, "rows": ["rr", "rr"]}}},
+                      "rough": {"specular": {"roughness": 0.1}, "ambient": [0, 0.5, 0]}},
+        "nodes": {"a": {"mesh": "square", "material": "frosted"}, "b": {"mesh": "square", "material": "rough"}},
+        "lights": {"lamp": {"type": "point", "shadow": true, "area": {"u": [0.3, 0, 0], "v": [0, 0, 0.2]}}}
+    })");
+    const Outcome run = nacre({"info", scratch / "s.json"});
+    ASSERT_EQ(run.code, 0) << run.err;
+    EXPECT_THAT(run.out, AllOf(HasSubstr("specular index 1.5 (filter 2 x 2, surface 0.25, spread 0.05)"),
+                               HasSubstr("ambient 0/0.5/0, specular mirror (roughness 0.1)"),
+                               HasSubstr("point, area 0.6 x 0.4, shadow")));
 }
 
 TEST(CommandRender, ShadowsByVolumes) {
