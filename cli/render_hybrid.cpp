@@ -157,16 +157,22 @@ HybridMaterials materialsOf(const SceneDescription& scene) {
     return out;
 }
 
-bool isHybrid(const HybridPictures& p) { return p.indirect || p.traced || p.shadows; }
+bool isHybrid(const HybridPictures& p) {
+    return p.indirect || p.traced || p.shadows || (p.counted && (p.pipes.count || p.pipes.mpi));
+}
 
 void checkHybrid(const HybridPictures& p) {
     if (!p.indirect && !p.dependent.empty())
         throw UsageError(p.dependent + ": expected --indirect virtual-lights beside it, found none");
     const std::string pipes = p.pipes.count ? "--pipes" : p.pipes.mpi ? "--mpi" : p.pipes.dependent;
-    for (const auto& [flag, given] : {std::pair{std::string("--stages"), p.stages}, {pipes, !pipes.empty()}})
-        if (given && !isHybrid(p))
-            throw UsageError(flag +
-                             ": expected --indirect virtual-lights or --specular traced beside it, found neither");
+    if (isHybrid(p)) return;
+    if (p.stages)
+        throw UsageError(
+            "--stages: expected --indirect virtual-lights, --specular traced or sampled shadows beside it, found none");
+    if (!pipes.empty())
+        throw UsageError(
+            pipes +
+            ": expected --indirect virtual-lights, --specular traced or --shadows volumes beside it, found none");
 }
 
 std::vector<Option> hybridOptions(HybridPictures& p) {

@@ -122,16 +122,18 @@ void runHybrid(const Context& context, const Settings& s, SceneDescription scene
     for (const auto& [given, flag] :
          {std::pair(s.shares, "--shares"), {s.shot.interreflection, "--radiosity"}, {s.quality != 0, "--quality"}})
         if (given)
-            throw UsageError(
-                fmt::format("{}: expected none of --indirect, --specular traced and sampled shadows beside it", flag));
+            throw UsageError(fmt::format(
+                "{}: expected none of --indirect, --specular traced, sampled shadows and pipes beside it", flag));
     if (s.lightPaths.value_or(0) != 0)
-        throw UsageError(
-            fmt::format("--light-paths: expected 0 beside --indirect, --specular traced and sampled shadows, found {}",
-                        *s.lightPaths));
+        throw UsageError(fmt::format(
+            "--light-paths: expected 0 beside --indirect, --specular traced, sampled shadows and pipes, found {}",
+            *s.lightPaths));
     if (!p.traced && hasSpecular(scene))
         throw UsageError(
             fmt::format("{}: expected --specular traced beside it in a scene with mirrors or panes, found none",
-                        p.indirect ? "--indirect" : "--shadows"));
+                        p.indirect  ? "--indirect"
+                        : p.shadows ? "--shadows"
+                                    : "--pipes"));
     p.scene = s.scene, p.output = s.output, p.shot = s.shot, p.white = s.white, p.rays = s.rays;
     p.switches = s.switches;
     p.reference = s.reference, p.asJson = s.asJson;
@@ -166,7 +168,8 @@ void runRender(const Context& context, const Settings& s) {
     SceneDescription scene = readScene(s.scene, reading);
     if (s.passes) {
         if (isHybrid(s.hybrid))
-            throw UsageError("--passes: expected none of --indirect, --specular traced and sampled shadows beside it");
+            throw UsageError(
+                "--passes: expected none of --indirect, --specular traced, sampled shadows and pipes beside it");
         checkPlanar(scene);
         endProgress();
         return putData(passList(scene, s.shot, atQuality(switchesFor(s, scene), s.quality), s.asJson));
@@ -283,6 +286,7 @@ std::vector<Option> sceneOptions(const std::shared_ptr<Settings>& s) {
               [s](const std::string& text) {
                   s->hybrid.shadows = sampledShadowsOf(text);
                   if (!s->hybrid.shadows) s->switches.shadowMethod = shadowMethodOf(text);
+                  s->hybrid.counted = !s->hybrid.shadows && s->switches.shadowMethod == ShadowMethod::Volumes;
               })},
         {"--light-points", "N", "Points of a light's area, not with maps: 1 to 63 (default 16)",
          only(s->sceneFlag, "--light-points",

@@ -101,6 +101,32 @@ TEST(CommandRenderPipes, AnyNumberDrawsThePictureOfOne) {
     }
 }
 
+TEST(CommandRenderPipes, ShadowsByVolumesAloneAreShared) {
+    const Scratch scratch;
+    std::string scene = contents(room(scratch));
+    const std::string glass = R"("material": "glass")";
+    scene.replace(scene.find(glass), glass.size(), R"("material": "matt")");
+    writeFile(scratch / "matt.json", scene);
+    const auto draw = [&](const std::string& output, const std::vector<std::string>& more) {
+        std::vector<std::string> all = {
+            "render", scratch / "matt.json", "-o",      scratch / output, "--size", "48x48", "--samples",
+            "1",      "--shadows",           "volumes", "--light-points", "6",      "--json"};
+        all.insert(all.end(), more.begin(), more.end());
+        const Outcome run = nacre(all);
+        EXPECT_EQ(run.code, 0) << run.err;
+        return json::parse(run.out);
+    };
+    draw("plain.exr", {});
+    const json data = draw("shared.exr", {"--pipes", "2"});
+    EXPECT_LT(difference(scratch / "plain.exr", scratch / "shared.exr"), 1.0 / 255);
+    EXPECT_EQ(data["pipes"]["count"], 2);
+    for (const json& seconds : data["pipes"]["draw_seconds"]) EXPECT_GT(seconds, 0);
+    const Outcome mirrors =
+        nacre({"render", room(scratch), "-o", scratch / "refused.exr", "--shadows", "volumes", "--pipes", "2"});
+    EXPECT_EQ(mirrors.code, 2);
+    EXPECT_THAT(mirrors.err, HasSubstr("--pipes: expected --specular traced beside it"));
+}
+
 TEST(CommandRenderPipes, SampledShadowsTimeIsShadows) {
     const Scratch scratch;
     for (const char* method : {"sampled-maps", "sampled-volumes"}) {
@@ -193,7 +219,8 @@ TEST(CommandRenderPipes, RefusesWhatDoesNotFit) {
     }
     const Outcome plain = nacre({"render", room(scratch), "-o", scratch / "refused.exr", "--pipes", "2"});
     EXPECT_EQ(plain.code, 2);
-    EXPECT_THAT(plain.err, HasSubstr("--pipes: expected --indirect virtual-lights or --specular traced beside it"));
+    EXPECT_THAT(plain.err,
+                HasSubstr("--pipes: expected --indirect virtual-lights, --specular traced or --shadows volumes"));
 }
 
 #ifdef NACRE_MPIRUN

@@ -308,7 +308,7 @@ TEST(CommandRender, OptionsThatNothingReadsAreRefused) {
     const Scratch scratch;
     const std::string scene = sceneFile(scratch), output = scratch / "a.png";
     const std::vector<std::pair<std::vector<std::string>, std::string>> cases = {
-        {{"--stages"}, "--stages: expected --indirect virtual-lights or --specular traced"},
+        {{"--stages"}, "--stages: expected --indirect virtual-lights, --specular traced or sampled"},
         {{"--virtual-lights", "3"}, "--virtual-lights: expected --indirect virtual-lights"},
         {{"--virtual-shadows", "--specular", "traced"}, "--virtual-shadows: expected --indirect virtual-lights"},
         {{"--virtual-choice", "grouped"}, "--virtual-choice: expected --indirect virtual-lights"},
