@@ -163,23 +163,6 @@ TEST(CommandRender, MirrorsAndPanesAreDrawnTracedAndListed) {
     EXPECT_FALSE(std::filesystem::exists(scratch / "d.png"));
 }
 
-TEST(CommandInfo, TellsOfFacesThatScatterAndOfAreas) {
-    const Scratch scratch;
-    writeFile(scratch / "s.json", R"({
-        "nacre_scene": 1,
-        "meshes": {"square": {"quad": {"size": 2}}},
-        "materials": {"frosted": {"specular": {"ior": 1.5, "spread": 0.05, "surface": 0.25, "filter": {"colors": {"r": [1, 0, 0]}, "rows": ["rr", "rr"]}}},
-                      "rough": {"specular": {"roughness": 0.1}, "ambient": [0, 0.5, 0]}},
-        "nodes": {"a": {"mesh": "square", "material": "frosted"}, "b": {"mesh": "square", "material": "rough"}},
-        "lights": {"lamp": {"type": "point", "shadow": true, "area": {"u": [0.3, 0, 0], "v": [0, 0, 0.2]}}}
-    })");
-    const Outcome run = nacre({"info", scratch / "s.json"});
-    ASSERT_EQ(run.code, 0) << run.err;
-    EXPECT_THAT(run.out, AllOf(HasSubstr("specular index 1.5 (filter 2 x 2, surface 0.25, spread 0.05)"),
-                               HasSubstr("ambient 0/0.5/0, specular mirror (roughness 0.1)"),
-                               HasSubstr("point, area 0.6 x 0.4, shadow")));
-}
-
 TEST(CommandRender, ShadowsByVolumes) {
     const Scratch scratch;
     const Outcome run = nacre({"render", sceneFile(scratch), "-o", scratch / "v.png", "--size", "96x64", "--shadows",
