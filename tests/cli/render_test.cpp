@@ -76,6 +76,11 @@ TEST(CommandRender, VolumesAreDrawnTracedAndListed) {
     const Outcome info = nacre({"info", scene});
     ASSERT_EQ(info.code, 0) << info.err;
     EXPECT_THAT(info.out, AllOf(HasSubstr("8 x 8 x 8 samples, surface at 130, march"), HasSubstr("volume.frag.glsl")));
+    for (const auto& [flag, method] : {std::pair{"--shadows", "sampled"}, {"--specular", "traced"}}) {
+        const Outcome meshes = nacre({"render", scene, "-o", scratch / "w.png", "--size", "16x16", flag, method});
+        EXPECT_EQ(meshes.code, 1);
+        EXPECT_THAT(meshes.err, HasSubstr("expected meshes alone, found a volume at node 'dome'"));
+    }
     const Outcome wrong = nacre({"render", volumeScene(scratch, "gone.den"), "-o", scratch / "w.png"});
     EXPECT_EQ(wrong.code, 1);
     EXPECT_THAT(wrong.err, AllOf(HasSubstr("volume.json: /volumes/dome/file: "), HasSubstr("gone.den")));
