@@ -105,6 +105,7 @@ json compareStages(const SceneDescription& scene, const HybridPictures& p, std::
 std::string textOf(const json& data) {
     std::string out = fmt::format("{}: {} x {} pixels\n", data["output"].get<std::string>(), data["width"].get<int>(),
                                   data["height"].get<int>());
+    out += notesText(data["notes"]);
     if (data.contains("virtual_lights")) {
         const json& v = data["virtual_lights"];
         out += fmt::format("{} virtual lights of {} elements, {:.1f} % of the power left out, {:.1f} % clamped\n",
@@ -125,19 +126,19 @@ std::string textOf(const json& data) {
                                s["volume_seconds"].get<double>(), s["volume_psnr"].get<double>());
         out += '\n';
     }
-    if (data.contains("repeated"))
-        out += fmt::format("drawn again: {:.2f} frames/s\n", data["repeated"]["frames_per_second"].get<double>());
+    out += repeatedText(data);
     for (const auto& [name, seconds] : data["stage_seconds"].items())
         out += fmt::format("{:<16} {:8.3f} s\n", name, seconds.get<double>());
     if (data.contains("pipes")) {
         const json& f = data["pipes"];
-        out += fmt::format("{} pipes, {}: {:.4f} s a frame;", f["count"].get<int>(),
+        out += fmt::format("{} pipe{}, {}: {:.4f} s a frame;", f["count"].get<int>(), f["count"] == 1 ? "" : "s",
                            f["compositing"].get<std::string>(), f["frame_seconds"].get<double>());
         for (const auto& [pass, share] : f["shares"].items())
             out += fmt::format(" {} {:.1f} %", pass, 100 * share.get<double>());
         out += "\n";
     }
     if (!data.contains("errors")) return out;
+    out += fmt::format("against the reference, traced in {:.1f} s\n", data["errors"]["trace_seconds"].get<double>());
     for (const auto& [name, e] : data["errors"].items())
         if (e.is_object())
             out += fmt::format("{:<10} PSNR {:6.2f} dB, relative RMSE {:.4f}, RMS/mean {:.4f}\n", name,
@@ -156,16 +157,22 @@ HybridMaterials materialsOf(const SceneDescription& scene) {
     return out;
 }
 
-bool isHybrid(const HybridPictures& p) { return p.indirect || p.traced || p.shadows; }
+bool isHybrid(const HybridPictures& p) {
+    return p.indirect || p.traced || p.shadows || (p.counted && (p.pipes.count || p.pipes.mpi));
+}
 
 void checkHybrid(const HybridPictures& p) {
     if (!p.indirect && !p.dependent.empty())
         throw UsageError(p.dependent + ": expected --indirect virtual-lights beside it, found none");
     const std::string pipes = p.pipes.count ? "--pipes" : p.pipes.mpi ? "--mpi" : p.pipes.dependent;
-    for (const auto& [flag, given] : {std::pair{std::string("--stages"), p.stages}, {pipes, !pipes.empty()}})
-        if (given && !isHybrid(p))
-            throw UsageError(flag +
-                             ": expected --indirect virtual-lights or --specular traced beside it, found neither");
+    if (isHybrid(p)) return;
+    if (p.stages)
+        throw UsageError(
+            "--stages: expected --indirect virtual-lights, --specular traced or sampled shadows beside it, found none");
+    if (!pipes.empty())
+        throw UsageError(
+            pipes +
+            ": expected --indirect virtual-lights, --specular traced or --shadows volumes beside it, found none");
 }
 
 std::vector<Option> hybridOptions(HybridPictures& p) {
@@ -206,7 +213,9 @@ std::vector<Option> hybridOptions(HybridPictures& p) {
         light("--elements", "N", "That surfaces are cut into, at least (default 32768)",
               integerInto([&p](long long v) { p.lights.elements.least = static_cast<int>(v); }, 1, 1 << 22)),
         {"--specular", "METHOD",
-         "Mirrors and panes by views (default; planar ones), or traced: rays on the CPU, curved ones too",
+         "Mirrors and panes by views (default; planar ones), or traced: rays on the CPU, curved ones too. Traced "
+         "leaves\n"
+         "out the lamps' light that they send on (--light-paths), and so does its reference",
          [&p](const std::string& text) {
              if (text != "views" && text != "traced")
                  throw UsageError(fmt::format("expected views or traced, found '{}'", text));
@@ -277,6 +286,7 @@ void renderHybrid(const Context& context, SceneDescription scene, const HybridPi
                  {"time", p.shot.time},
                  {"seconds", watch.seconds()},
                  {"cpu_seconds", watch.cpuSeconds()},
+                 {"notes", lightNotes(scene, p.traced, !p.shadows && mapsShadows(p.switches))},
                  {"renderer", gl.description()}};
     data.update(reportJson(piped.frame.report, p));
     if (!piped.data.is_null()) data["pipes"] = piped.data;

@@ -21,6 +21,7 @@ struct HybridPictures {
     bool indirect = false;                       ///< by virtual lights
     bool traced = false;                         ///< specular pixels
     std::optional<SampledShadowMethod> shadows;  ///< as levels of each pixel; points: switches.lightPoints
+    bool counted = false;                        ///< shadows by volumes, which pipes share
     bool stages = false;                         ///< each a picture beside the output
     VirtualLightOptions lights;
     std::string dependent;  ///< the first option given that needs --indirect
@@ -30,6 +31,7 @@ struct HybridPictures {
 /// Options that only such pictures have. \param p  outlives them
 std::vector<Option> hybridOptions(HybridPictures& p);
 
+/// Whether a stage beside direct light is asked for, or pipes and shadows that they share.
 bool isHybrid(const HybridPictures& p);
 /// \throws UsageError for options that nothing would read
 void checkHybrid(const HybridPictures& p);

@@ -55,11 +55,12 @@ json secondsByPass(const HybridReport& report) {
         const bool specular = stage.name == "tags" || stage.name == "traced";
         const char* pass = stage.name == "composite"                            ? "composite"
                            : specular                                           ? "specular"
+                           : stage.name == "shadows"                            ? "shadow"
                            : stage.name == "direct" || stage.name == "geometry" ? "direct"
                                                                                 : "indirect";
         out[pass] = out[pass].get<double>() + stage.wallSeconds;
     }
-    out["shadow"] = report.shadowSeconds;
+    out["shadow"] = out["shadow"].get<double>() + report.shadowSeconds;
     out["direct"] = out["direct"].get<double>() - report.shadowSeconds;
     return out;
 }
@@ -71,25 +72,24 @@ std::vector<Option> pipeOptions(PipeSettings& s) {
             take(text);
         };
     };
-    return {
-        {"--pipes", "N", "Processes with an OpenGL context each that share a frame's samples and virtual lights",
-         integerInto([&s](long long v) { s.count = static_cast<int>(v); }, 1, kMostPipes)},
-        {"--mpi", "", "Pipes are the ranks that mpirun started this command as", into(s.mpi)},
-        {"--compositing", "METHOD",
-         "Of pipes' images: binary-swap (default), halves added by the pipelines, or software, by threads",
-         dependent("--compositing",
-                   [&s](const std::string& text) {
-                       if (text != "binary-swap" && text != "software")
-                           throw UsageError(fmt::format("expected binary-swap or software, found '{}'", text));
-                       s.crew.compositing = text == "software" ? Compositing::Software : Compositing::BinarySwap;
-                   })},
-        {"--latency", "", "Put a frame's images together while the next one is drawn",
-         dependent("--latency", into(s.latency))},
-        {"--repeat", "N",
-         "Draw a staged frame so many times again, and print frames/s of the fastest; pipes: so often, and the median",
-         integerInto([&s](long long v) { s.repeat = static_cast<int>(v); }, 1, 1000000)},
-        {"--patience", "S", "A pipe that is so much later than the first is left out (default 30)",
-         dependent("--patience", positiveInto([&s](double v) { s.crew.patience = v; }))}};
+    return {{"--pipes", "N", "Processes with an OpenGL context each that share a frame's samples and virtual lights",
+             integerInto([&s](long long v) { s.count = static_cast<int>(v); }, 1, kMostPipes)},
+            {"--mpi", "", "Pipes are the ranks that mpirun started this command as", into(s.mpi)},
+            {"--compositing", "METHOD",
+             "Of pipes' images: binary-swap (default), halves added by the pipelines, or software, by threads",
+             dependent("--compositing",
+                       [&s](const std::string& text) {
+                           if (text != "binary-swap" && text != "software")
+                               throw UsageError(fmt::format("expected binary-swap or software, found '{}'", text));
+                           s.crew.compositing = text == "software" ? Compositing::Software : Compositing::BinarySwap;
+                       })},
+            {"--latency", "", "Put a frame's images together while the next one is drawn",
+             dependent("--latency", into(s.latency))},
+            {"--repeat", "N",
+             "Draw the frame so many times again, and print frames/s of the fastest; pipes: so often, and the median",
+             integerInto([&s](long long v) { s.repeat = static_cast<int>(v); }, 1, 1000000)},
+            {"--patience", "S", "A pipe that is so much later than the first is left out (default 30)",
+             dependent("--patience", positiveInto([&s](double v) { s.crew.patience = v; }))}};
 }
 
 RenderPipes::RenderPipes(const Context& context, const PipeSettings& s) : settings_(s) {
@@ -103,6 +103,7 @@ RenderPipes::RenderPipes(const Context& context, const PipeSettings& s) : settin
         throw UsageError("--latency: expected --compositing software beside it, found binary-swap");
     if (s.mpi) {
         own_ = mpiLink();
+        if (own_->count() == 1) tell("--mpi: found one rank, this process; mpirun -n N starts more");
     } else {
         own_ = inheritedPipe();
         if (!own_) processes_ = std::make_unique<PipeProcesses>(context.arguments, *s.count);

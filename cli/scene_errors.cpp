@@ -1,6 +1,7 @@
 #include "cli/scene_errors.hpp"
 
 #include <algorithm>
+#include <limits>
 
 #include "cli/output_file.hpp"
 
@@ -14,15 +15,21 @@ struct Approximation {
     SceneParts without;
 };
 
+/// Whether it lights something.
+bool hasSurrounding(const SceneDescription& scene) {
+    return std::any_of(scene.nodes.begin(), scene.nodes.end(), [&](const SceneNode& node) {
+        return node.material >= 0 && scene.materials[static_cast<std::size_t>(node.material)].surrounding;
+    });
+}
+
 std::vector<Approximation> approximationsOf(const SceneDescription& scene) {
-    bool brdf = false, relief = false, indirect = false, surrounding = false;
+    bool brdf = false, relief = false, indirect = false;
     for (const SceneNode& node : scene.nodes) {
         if (node.material < 0) continue;
         const SceneMaterial& m = scene.materials[static_cast<std::size_t>(node.material)];
         brdf = brdf || m.brdf >= 0;
         relief = relief || (m.relief && m.relief->shadow != BumpShadow::None);
         indirect = indirect || (m.relief && m.relief->indirectLight >= 0);
-        surrounding = surrounding || m.surrounding;
     }
     const bool shadows = std::any_of(scene.lights.begin(), scene.lights.end(),
                                      [](const SceneLight& light) { return light.shadow.has_value(); });
@@ -44,7 +51,7 @@ std::vector<Approximation> approximationsOf(const SceneDescription& scene) {
         Approximation& a = add("indirect light");
         a.off.indirect = a.without.indirect = false;
     }
-    if (surrounding) {
+    if (hasSurrounding(scene)) {
         Approximation& a = add("surrounding");
         a.off.surrounding = a.without.surrounding = false;
     }
@@ -74,13 +81,25 @@ Image shoot(SceneRenderer& renderer, const SceneShot& shot) {
     return shrunk(target.read(), n);
 }
 
+double fastestFrame(SceneRenderer& renderer, const SceneShot& shot, int frames) {
+    const RenderTarget target({.width = shot.samples * shot.width, .height = shot.samples * shot.height});
+    double least = std::numeric_limits<double>::infinity();
+    for (int i = 0; i < frames; ++i) {
+        const Stopwatch watch;
+        renderer.render(target, shot.time);
+        target.read();
+        least = std::min(least, watch.seconds());
+    }
+    return least;
+}
+
 SceneErrors measureScene(SceneRenderer& renderer, const Image& picture, const SceneShot& shot, int rays, bool shares,
                          const Progress& progress) {
     const SceneDescription& scene = renderer.scene();
     const std::vector<Approximation> list = shares ? approximationsOf(scene) : std::vector<Approximation>();
-    std::vector<SceneParts> parts(2);  // all, and with what meshes block
-    parts[1].occlusion = true;
+    std::vector<SceneParts> parts(1);  // all
     for (const Approximation& a : list) parts.push_back(a.without);
+    if (hasSurrounding(scene)) parts.emplace_back().occlusion = true;
     for (SceneParts& part : parts) part.interreflection = shot.interreflection;
     const SceneTruths truths = openTruths(scene, 0, progress);
     SceneTraceOptions options{.width = shot.width, .height = shot.height, .supersample = rays, .time = shot.time};
@@ -95,7 +114,7 @@ SceneErrors measureScene(SceneRenderer& renderer, const Image& picture, const Sc
     out.notes = truths.notes;
     out.white = pictureWhite(traced[0]);
     out.all = compareImages(picture, traced[0], out.white);
-    out.occluded = compareImages(picture, traced[1], out.white);
+    if (hasSurrounding(scene)) out.occluded = compareImages(picture, traced.back(), out.white);
     for (std::size_t i = 0; i < list.size(); ++i) {
         const bool brdf = list[i].without.bakedBrdf;
         renderer.switches = list[i].off;
@@ -103,7 +122,7 @@ SceneErrors measureScene(SceneRenderer& renderer, const Image& picture, const Sc
         renderer.switches.shadowMethod = before.shadowMethod;
         if (brdf) renderer.switches.reflectance = SceneReflectance::Direct;
         const Image off = shoot(renderer, shot);
-        const ImageDifference without = compareImages(brdf ? picture : off, traced[i + 2], out.white);
+        const ImageDifference without = compareImages(brdf ? picture : off, traced[i + 1], out.white);
         out.shares.push_back({list[i].name, compareImages(off, traced[0], out.white).psnrSrgb, without.psnrSrgb,
                               1 - squareError(without) / squareError(out.all)});
     }

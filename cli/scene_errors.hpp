@@ -1,6 +1,7 @@
 // A scene as drawn against the same scene traced, and what each approximation has to do with the difference.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -26,6 +27,9 @@ Image shrunk(const Image& fine, int n);
 /// Draws with the renderer's switches and reads back.
 Image shoot(SceneRenderer& renderer, const SceneShot& shot);
 
+/// The fastest of so many frames, drawn and read back, once programs and casters are there [s].
+double fastestFrame(SceneRenderer& renderer, const SceneShot& shot, int frames);
+
 /// One approximation. Errors are of sRGB values, as ImageDifference::psnrSrgb; all with the full reference's white.
 struct SceneShare {
     std::string name;        ///< brdf, shadow maps, relief shadows, indirect light, surrounding
@@ -38,7 +42,7 @@ struct SceneErrors {
     Image reference;
     double white = 1;  ///< pictureWhite(reference)
     ImageDifference all;
-    ImageDifference occluded;  ///< against a reference whose meshes block the surrounding's light
+    std::optional<ImageDifference> occluded;  ///< where a surrounding lights: its light blocked by meshes, too
     std::vector<SceneShare> shares;
     std::vector<std::string> notes;
     double seconds = 0;  ///< of tracing

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "cli/output_file.hpp"
 #include "cli/verb.hpp"
 #include "reference/albedo.hpp"
@@ -9,6 +11,7 @@
 #include "reference/scene_truths.hpp"
 #include "shading/multipass/quality.hpp"
 #include "shading/multipass/radiosity.hpp"
+#include "shading/multipass/specular_face.hpp"
 
 namespace nacre::cli {
 
@@ -40,6 +43,30 @@ int qualityOf(const std::string& text) {
     }
 }
 
+std::vector<std::string> lightNotes(const SceneDescription& scene, bool traced, bool maps) {
+    const auto any = [&](bool area) {
+        return std::any_of(scene.lights.begin(), scene.lights.end(),
+                           [&](const SceneLight& light) { return light.shadow && (light.area || !area); });
+    };
+    std::vector<std::string> out;
+    if (traced && any(false) && hasSpecular(scene))
+        out.emplace_back("light by way of mirrors and panes is left out, of the reference too (--light-paths)");
+    if (maps && any(true))
+        out.emplace_back("shadow maps take lamps with an area as their middle, a reference has them soft (--shadows)");
+    return out;
+}
+
+std::string notesText(const nlohmann::json& notes) {
+    std::string out;
+    for (const nlohmann::json& note : notes) out += fmt::format("note: {}\n", note.get<std::string>());
+    return out;
+}
+
+std::string repeatedText(const nlohmann::json& data) {
+    if (!data.contains("repeated")) return "";
+    return fmt::format("drawn again: {:.2f} frames/s\n", data["repeated"]["frames_per_second"].get<double>());
+}
+
 nlohmann::json volumesJson(const ShadowVolumeCounts& c) {
     return {{"made", c.made},
             {"bytes", c.bytes},
@@ -55,7 +82,7 @@ std::vector<Rgb> albedosOf(const SceneDescription& scene) {
     return out;
 }
 
-nlohmann::json addRadiosity(SceneRenderer& renderer, double time) {
+nlohmann::json addRadiosity(SceneRenderer& renderer, double time, const Progress& progress) {
     const Stopwatch watch;
     const SceneDescription& scene = renderer.scene();
     const std::vector<Rgb> albedos = albedosOf(scene);
@@ -64,7 +91,7 @@ nlohmann::json addRadiosity(SceneRenderer& renderer, double time) {
         const double length = glm::length(b - a);
         return !rays.shadowed(a, (b - a) / length, length);
     };
-    const IndirectLight light = sceneIndirectLight(scene, time, albedos, visible);
+    const IndirectLight light = sceneIndirectLight(scene, time, albedos, visible, {.progress = progress});
     renderer.setIndirectLight(light.radiance);
     return {{"shots", light.shots}, {"left", light.left}, {"seconds", watch.seconds()}};
 }

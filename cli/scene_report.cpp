@@ -26,6 +26,22 @@ const char* nameOf(BumpShadow shadow) {
     return kNames[static_cast<int>(shadow)];
 }
 
+/// One number for grey.
+std::string colorText(const Rgb& c) {
+    return c == Rgb(c.r) ? fmt::format("{:g}", c.r) : fmt::format("{:g}/{:g}/{:g}", c.r, c.g, c.b);
+}
+
+/// "mirror", "index 1.5 (filter 64 x 64, spread 0.05)"
+std::string specularText(const SceneSpecular& s) {
+    std::string more;
+    const auto add = [&](const std::string& text) { more += (more.empty() ? "" : ", ") + text; };
+    if (s.filter) add(fmt::format("filter {} x {}", s.filter->width(), s.filter->height()));
+    if (s.surface > 0) add(fmt::format("surface {:g}", s.surface));
+    if (s.spread > 0) add(fmt::format("spread {:g}", s.spread));
+    if (s.roughness > 0) add(fmt::format("roughness {:g}", s.roughness));
+    return (s.ior ? fmt::format("index {:g}", *s.ior) : "mirror") + (more.empty() ? "" : " (" + more + ")");
+}
+
 /// Role and asset of each that a material uses: {"brdf": "gold", "relief": "wall"}.
 json usesOf(const SceneDescription& scene, const SceneMaterial& material) {
     json out = json::object();
@@ -33,6 +49,7 @@ json usesOf(const SceneDescription& scene, const SceneMaterial& material) {
         if (asset >= 0) out[role] = assetName(scene, asset);
     };
     add("brdf", material.brdf);
+    if (material.ambient != Rgb(0)) out["ambient"] = colorText(material.ambient);
     if (!material.model.empty()) out["model"] = material.model;
     if (material.relief) {
         add("relief", material.relief->asset);
@@ -46,8 +63,7 @@ json usesOf(const SceneDescription& scene, const SceneMaterial& material) {
         add("diffuse", material.surrounding->diffuse.asset);
         add("table", material.surrounding->table);
     }
-    if (material.specular)
-        out["specular"] = material.specular->ior ? fmt::format("index {:g}", *material.specular->ior) : "mirror";
+    if (material.specular) out["specular"] = specularText(*material.specular);
     return out;
 }
 
@@ -102,6 +118,7 @@ json lightsOf(const SceneDescription& scene) {
                                                    : "point"},
                       {"color", listOf(l.light.color)}};
         if (l.node >= 0) entry["node"] = scene.nodes[at(l.node)].name;
+        if (l.area) entry["area"] = {{"u", listOf(l.area->u)}, {"v", listOf(l.area->v)}};
         if (l.shadow)
             entry["shadow"] = {{"size", l.shadow->size}, {"bits", l.shadow->bits}, {"filter", l.shadow->filter}};
         out.push_back(entry);
@@ -164,11 +181,20 @@ std::string programsText(const json& programs) {
     return out;
 }
 
+/// Its edges.
+std::string areaText(const json& area) {
+    const auto edge = [&](const char* key) {
+        const json& v = area[key];
+        return 2 * glm::length(Vec3(v[0].get<double>(), v[1].get<double>(), v[2].get<double>()));
+    };
+    return fmt::format(", area {:g} x {:g}", edge("u"), edge("v"));
+}
+
 std::string usesText(const json& uses) {
     std::string out;
     for (const auto& [role, what] : uses.items())
         out += fmt::format("{}{} {}", out.empty() ? "" : ", ", role, what.get<std::string>());
-    return out.empty() ? "ambient alone" : out;
+    return out.empty() ? "black" : out;
 }
 
 }  // namespace
@@ -221,8 +247,9 @@ std::string sceneText(const json& r) {
     for (const json& m : r["materials"])
         out += fmt::format("  material  {:<20} {}\n", m["name"].get<std::string>(), usesText(m["uses"]));
     for (const json& l : r["lights"])
-        out += fmt::format("  light     {:<20} {}{}{}\n", l["name"].get<std::string>(), l["type"].get<std::string>(),
+        out += fmt::format("  light     {:<20} {}{}{}{}\n", l["name"].get<std::string>(), l["type"].get<std::string>(),
                            l.contains("node") ? " on " + l["node"].get<std::string>() : "",
+                           l.contains("area") ? areaText(l["area"]) : "",
                            l.contains("shadow")
                                ? fmt::format(", shadow {} texels of {} bits", l["shadow"]["size"].get<int>(),
                                              l["shadow"]["bits"].get<int>())

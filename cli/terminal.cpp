@@ -5,7 +5,6 @@
 
 #include <cerrno>
 #include <chrono>
-#include <cstdio>
 #include <cstring>
 #include <memory>
 #include <mutex>
@@ -29,21 +28,33 @@ void tell(std::string_view message) {
     std::fwrite(line.data(), 1, line.size(), stderr);
 }
 
-Progress terminalProgress(bool quiet) {
-    if (quiet || !::isatty(STDERR_FILENO)) return {};
-    using Clock = std::chrono::steady_clock;
+using Clock = std::chrono::steady_clock;
+
+/// \param text  with places for what is done and per cent  \param last  when a line came last
+static Progress every(double seconds, Clock::time_point last, std::FILE* out, const char* text) {
     struct State {
-        std::mutex mutex;  // bakers may report from several threads
-        Clock::time_point last{};
+        Clock::time_point last;
+        std::mutex mutex{};  // bakers may report from several threads
     };
-    return [state = std::make_shared<State>()](const std::string& what, double share) {
+    const std::shared_ptr<State> state(new State{last});
+    return [=](const std::string& what, double share) {
         const std::lock_guard lock(state->mutex);
         const auto now = Clock::now();
-        if (now - state->last < std::chrono::milliseconds(100)) return;
+        if (now - state->last < std::chrono::duration<double>(seconds)) return;
         state->last = now;
-        const std::string line = fmt::format("\r\033[K{} {:.0f} %", what, 100 * share);
-        std::fwrite(line.data(), 1, line.size(), stderr);
+        const std::string line = fmt::format(fmt::runtime(text), what, 100 * share);
+        std::fwrite(line.data(), 1, line.size(), out);
     };
+}
+
+Progress progressLines(std::FILE* out, double seconds) {
+    return every(seconds, Clock::now(), out, "nacre: {} {:.0f} %\n");
+}
+
+Progress terminalProgress(bool quiet) {
+    if (quiet) return {};
+    if (!::isatty(STDERR_FILENO)) return progressLines(stderr, 10);
+    return every(0.1, {}, stderr, "\r\033[K{} {:.0f} %");
 }
 
 void endProgress() {

@@ -1,6 +1,7 @@
-// Standard output for data, standard error for messages, progress only where somebody watches.
+// Standard output for data, standard error for messages and progress.
 #pragma once
 
+#include <cstdio>
 #include <string>
 #include <string_view>
 
@@ -16,9 +17,11 @@ void flushData();
 /// One line "nacre: …" on standard error.
 void tell(std::string_view message);
 
-/// A line that is rewritten in place, at most ten times a second; empty when `quiet` or when standard error is no
-/// terminal. endProgress() clears the line.
+/// Empty when `quiet`. On a terminal a line that is rewritten in place, at most ten times a second, which endProgress()
+/// clears; in a file or pipe a line every ten seconds, progressLines.
 Progress terminalProgress(bool quiet);
+/// "nacre: tracing 40 %" on `out`, at least so many seconds after the last one, and after this call.
+Progress progressLines(std::FILE* out, double seconds);
 void endProgress();
 
 /// "16.0 KiB", "312 bytes"

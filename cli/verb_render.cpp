@@ -77,11 +77,8 @@ void takeSize(SceneShot& shot, const std::string& text) {
 }
 
 json toJson(const SceneErrors& e) {
-    json out = {{"white", e.white},
-                {"all", differenceJson(e.all)},
-                {"surrounding_occluded", differenceJson(e.occluded)},
-                {"trace_seconds", e.seconds},
-                {"notes", e.notes}};
+    json out = {{"white", e.white}, {"all", differenceJson(e.all)}, {"trace_seconds", e.seconds}, {"notes", e.notes}};
+    if (e.occluded) out["surrounding_occluded"] = differenceJson(*e.occluded);
     for (const SceneShare& s : e.shares)
         out["shares"].push_back(
             {{"name", s.name}, {"psnr_off", s.psnrOff}, {"psnr_without", s.psnrWithout}, {"share", s.share}});
@@ -89,10 +86,12 @@ json toJson(const SceneErrors& e) {
 }
 
 std::string errorText(const SceneErrors& e) {
-    std::string out = fmt::format("against the reference: PSNR {:.2f} dB, relative RMSE {:.4f}, RMS/mean {:.4f}\n",
-                                  e.all.psnrSrgb, e.all.relative, e.all.rmsOverMean);
-    out += fmt::format("  where meshes block the surrounding's light: PSNR {:.2f} dB, relative RMSE {:.4f}\n",
-                       e.occluded.psnrSrgb, e.occluded.relative);
+    std::string out = fmt::format(
+        "against the reference, traced in {:.1f} s: PSNR {:.2f} dB, relative RMSE {:.4f}, RMS/mean {:.4f}\n", e.seconds,
+        e.all.psnrSrgb, e.all.relative, e.all.rmsOverMean);
+    if (e.occluded)
+        out += fmt::format("  where meshes block the surrounding's light: PSNR {:.2f} dB, relative RMSE {:.4f}\n",
+                           e.occluded->psnrSrgb, e.occluded->relative);
     if (e.shares.empty()) return out;
     out += fmt::format("{:<16} {:>14} {:>20} {:>16}\n", "approximation", "PSNR if off", "PSNR without it",
                        "share of error");
@@ -120,17 +119,21 @@ SceneSwitches switchesFor(const Settings& s, const SceneDescription& scene) {
 
 void runHybrid(const Context& context, const Settings& s, SceneDescription scene) {
     HybridPictures p = s.hybrid;
-    for (const auto& [given, flag] : {std::pair(s.shares, "--shares"),
-                                      {s.shot.interreflection, "--radiosity"},
-                                      {s.lightPaths.has_value(), "--light-paths"},
-                                      {s.quality != 0, "--quality"}})
+    for (const auto& [given, flag] :
+         {std::pair(s.shares, "--shares"), {s.shot.interreflection, "--radiosity"}, {s.quality != 0, "--quality"}})
         if (given)
-            throw UsageError(
-                fmt::format("{}: expected none of --indirect, --specular traced and sampled shadows beside it", flag));
+            throw UsageError(fmt::format(
+                "{}: expected none of --indirect, --specular traced, sampled shadows and pipes beside it", flag));
+    if (s.lightPaths.value_or(0) != 0)
+        throw UsageError(fmt::format(
+            "--light-paths: expected 0 beside --indirect, --specular traced, sampled shadows and pipes, found {}",
+            *s.lightPaths));
     if (!p.traced && hasSpecular(scene))
         throw UsageError(
             fmt::format("{}: expected --specular traced beside it in a scene with mirrors or panes, found none",
-                        p.indirect ? "--indirect" : "--shadows"));
+                        p.indirect  ? "--indirect"
+                        : p.shadows ? "--shadows"
+                                    : "--pipes"));
     p.scene = s.scene, p.output = s.output, p.shot = s.shot, p.white = s.white, p.rays = s.rays;
     p.switches = s.switches;
     p.reference = s.reference, p.asJson = s.asJson;
@@ -165,7 +168,8 @@ void runRender(const Context& context, const Settings& s) {
     SceneDescription scene = readScene(s.scene, reading);
     if (s.passes) {
         if (isHybrid(s.hybrid))
-            throw UsageError("--passes: expected none of --indirect, --specular traced and sampled shadows beside it");
+            throw UsageError(
+                "--passes: expected none of --indirect, --specular traced, sampled shadows and pipes beside it");
         checkPlanar(scene);
         endProgress();
         return putData(passList(scene, s.shot, atQuality(switchesFor(s, scene), s.quality), s.asJson));
@@ -179,10 +183,7 @@ void runRender(const Context& context, const Settings& s) {
     SceneRenderer renderer(loader, std::move(scene));
     renderer.switches = atQuality(switches, s.quality);
     json radiosity;
-    if (s.shot.interreflection) {
-        report(progress, "radiosity", 0);
-        radiosity = addRadiosity(renderer, s.shot.time);
-    }
+    if (s.shot.interreflection) radiosity = addRadiosity(renderer, s.shot.time, progress);
     report(progress, "drawing", 0);
     const Stopwatch watch;
     const Image picture = shoot(renderer, s.shot);
@@ -199,12 +200,17 @@ void runRender(const Context& context, const Settings& s) {
                  {"programs", renderer.programs().size()},
                  {"renderer", gl.description()}};
     if (s.shot.interreflection) data["radiosity"] = radiosity;
+    const int repeats = s.hybrid.pipes.repeat;
+    if (repeats > 0)
+        data["repeated"] = {{"frames", repeats}, {"frames_per_second", 1 / fastestFrame(renderer, s.shot, repeats)}};
+    data["notes"] = lightNotes(renderer.scene(), false, mapsShadows(switches));
     data["light_paths"] = lightCountsJson(renderer.schedule());
     if (s.switches.shadowMethod == ShadowMethod::Volumes || !renderer.schedule().lights.empty())
         data["shadow_volumes"] = volumesJson(renderer.shadowVolumes());
     double white = s.white > 0 ? s.white : pictureWhite(picture);
     std::string text = fmt::format("{}: {} x {} pixels of {} samples, {} programs\n", s.output, s.shot.width,
-                                   s.shot.height, s.shot.samples * s.shot.samples, renderer.programs().size());
+                                   s.shot.height, s.shot.samples * s.shot.samples, renderer.programs().size()) +
+                       notesText(data["notes"]) + repeatedText(data);
     PictureSet pictures;
     if (s.reference || s.shares) {
         renderer.switches = switches;  // whatever the quality, against all
@@ -229,9 +235,10 @@ constexpr const char* kDetails =
     "is\n"
     "sRGB of radiance over a white, 1.5 times the 90th percentile (of the reference, when there is one).\n"
     "With --reference the same scene is traced from the unbaked sources: OUT-reference beside OUT, and\n"
-    "OUT-difference.png, in which white stands for 0.2 in sRGB. PSNR is of sRGB values clamped to [0, 1]. A "
-    "second\n"
-    "figure is against a reference whose meshes also block the surrounding's light, which no pass here does.\n"
+    "OUT-difference.png, in which white stands for 0.2 in sRGB. Of the difference of picture and reference, PSNR is\n"
+    "of sRGB values clamped to [0, 1], in linear radiance relative RMSE is its root mean square over the reference's,\n"
+    "RMS/mean over the reference's mean. Where a surrounding lights something a second figure is against a reference\n"
+    "whose meshes also block its light and ambient light, which no pass here does.\n"
     "With --shares each approximation is switched off alone: PSNR of the picture without it against the full\n"
     "reference; PSNR of both without it (BRDF: the reference takes the baked one); and the share of the mean "
     "square\n"
@@ -240,7 +247,8 @@ constexpr const char* kDetails =
     "surfaces\n"
     "reflected once, mirrors and glass by rays on the processor. --reference then traces one such reflection.\n"
     "With --pipes or --mpi several processes draw them together: lamps' points (with --shadows volumes) and virtual\n"
-    "lights. One that dies or is late is left out: if the last frame lacks its light, the exit code is 1.\n"
+    "lights; sampled shadows are the first's alone. One that dies or is late is left out: if the last frame lacks\n"
+    "its light, the exit code is 1.\n"
     "  mpirun -n 2 nacre render office.json -o office.png --indirect virtual-lights --shadows volumes --mpi\n"
     "A file of nacre transfer holds its mesh: its frames are drawn by their vertices' radiance (albedo 1, back faces\n"
     "black) in the light of --env, turned and blended, with the first frame's white. With --reference the same\n"
@@ -262,7 +270,8 @@ std::vector<Option> sceneOptions(const std::shared_ptr<Settings>& s) {
          "frosted faces and of lights' areas",
          only(s->sceneFlag, "--quality", [s](const std::string& text) { s->quality = qualityOf(text); })},
         {"--light-paths", "N",
-         "Mirrors and panes along a path from a light that has shadows, 0 to 4 (default 2; 0 with voxel volumes)",
+         "Mirrors and panes along a path from a light that has shadows, 0 to 4 (default 2; 0 with voxel volumes,\n"
+         "--indirect, --specular traced and sampled shadows)",
          only(s->sceneFlag, "--light-paths",
               integerInto([s](long long v) { s->lightPaths = static_cast<int>(v); }, 0, kMostLightBounces))},
         {"--passes", "", "Print the passes that draw a scene, and draw nothing",
@@ -277,6 +286,7 @@ std::vector<Option> sceneOptions(const std::shared_ptr<Settings>& s) {
               [s](const std::string& text) {
                   s->hybrid.shadows = sampledShadowsOf(text);
                   if (!s->hybrid.shadows) s->switches.shadowMethod = shadowMethodOf(text);
+                  s->hybrid.counted = !s->hybrid.shadows && s->switches.shadowMethod == ShadowMethod::Volumes;
               })},
         {"--light-points", "N", "Points of a light's area, not with maps: 1 to 63 (default 16)",
          only(s->sceneFlag, "--light-points",
@@ -331,7 +341,11 @@ std::vector<Option> options(const std::shared_ptr<Settings>& s) {
         {"--samples", "N", "N x N shaded samples a pixel (default 2)",
          integerInto([s](long long v) { s->shot.samples = static_cast<int>(v); }, 1, 8)},
         {"--white", "W", "Radiance shown as white in PNG", positiveInto([s](double v) { s->white = v; })},
-        {"--reference", "", "Trace the same, and print the error", into(s->reference)}};
+        {"--reference", "",
+         "Trace the same, and print the error and the time that it took: minutes where there are many panes, less "
+         "with\n"
+         "a smaller --size, fewer --rays and --light-paths 0 or 1",
+         into(s->reference)}};
     for (Option& option : sceneOptions(s)) out.push_back(std::move(option));
     for (Option& option : hybridOptions(s->hybrid)) {
         option.take = only(s->sceneFlag, option.flags, std::move(option.take));

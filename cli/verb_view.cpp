@@ -26,7 +26,8 @@ fs::path viewerProgram() {
         if (fs::is_regular_file(candidate, ignored)) return candidate;
         tried += (tried.empty() ? "" : ", ") + candidate.string();
     }
-    throw Error(fmt::format("view: expected the viewer nacre_view, found none; tried: {}", tried));
+    throw Error(
+        fmt::format("view: expected the viewer nacre_view, found none: ./dev view builds it; tried: {}", tried));
 }
 
 void runViewer(std::vector<std::string> words, const std::string& file) {

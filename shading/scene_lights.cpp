@@ -90,6 +90,8 @@ SceneLight sceneLight(const std::string& name, const JsonField& field, const Sce
         ifThere(field, "area", [&](const JsonField& f) {
             f.requireKeys({"u", "v"});
             out.area = LightArea{f.at("u").vector(), f.at("v").vector()};
+            if (glm::length(glm::cross(out.area->u, out.area->v)) == 0)
+                f.fail("expected u and v that span an area, found parallel ones");
         });
         if (type == 2) light.cone = cone(field, light.position);
     }

@@ -105,7 +105,7 @@ std::shared_ptr<const Image> lettered(const JsonField& field) {
 
 std::shared_ptr<const Image> filterOf(const JsonField& field, const std::filesystem::path& folder) {
     if (field.value().is_object()) return lettered(field);
-    return named(field, [&] { return textureOf(scenePath(folder, field.text())); });
+    return namedText(field, [&](const std::string& name) { return textureOf(scenePath(folder, name)); });
 }
 
 SceneSpecular specular(const JsonField& field, const std::filesystem::path& folder) {
@@ -121,7 +121,7 @@ SceneSpecular specular(const JsonField& field, const std::filesystem::path& fold
     ifThere(field, "surface", [&](const JsonField& f) { out.surface = f.number(0, 1); });
     ifThere(field, "texture", [&](const JsonField& f) {
         if (out.surface == 0) f.fail("expected \"surface\" beside it, found none");
-        out.texture = named(f, [&] { return textureOf(scenePath(folder, f.text())); });
+        out.texture = namedText(f, [&](const std::string& name) { return textureOf(scenePath(folder, name)); });
         out.pictures.push_back(scenePath(folder, f.text()));
     });
     ifThere(field, "filter", [&](const JsonField& f) {
@@ -153,7 +153,7 @@ SceneMaterial sceneMaterial(const std::string& name, const JsonField& field, con
     ifThere(field, "brdf", [&](const JsonField& f) { out.brdf = f.nameIn(names.assets, "asset"); });
     ifThere(field, "model", [&](const JsonField& f) {
         if (out.brdf >= 0) f.fail("expected \"brdf\" or \"model\", found both");
-        out.model = named(f, [&] { return makeModel(f.text()).source; });
+        out.model = namedText(f, [](const std::string& model) { return makeModel(model).source; });
     });
     ifThere(field, "ambient", [&](const JsonField& f) { out.ambient = f.color(); });
     ifThere(field, "relief", [&](const JsonField& f) { out.relief = relief(f, names); });

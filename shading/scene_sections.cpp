@@ -32,6 +32,9 @@ TangentDirection tangentsOf(const JsonField& field) {
     return inner && inner->choice({"circular", "radial"}) == 1 ? TangentDirection::Radial : TangentDirection::Circular;
 }
 
+Mesh meshFile(const JsonField& f, const std::filesystem::path& folder) {
+    return namedText(f, [&](const std::string& name) { return loadMesh(scenePath(folder, name)).mesh; });
+}
 Mesh torus(const JsonField& f) {
     f.requireKeys({"ring", "tube", "rings", "sides", "tangents"});
     return makeTorus(lengthOr(f, "ring", 1), lengthOr(f, "tube", 0.4f), stepsOr(f, "rings", 3, 200),
@@ -63,13 +66,11 @@ SceneMesh sceneMesh(const std::string& name, const JsonField& field, const std::
         field.fail(fmt::format("expected one of file, torus, sphere, disk, quad, found {}",
                                kinds.empty() ? "none" : kinds[0] + " and " + kinds[1]));
     const JsonField inner = field.at(kinds[0]);
-    SceneMesh out{name, named(inner, [&] {
-                      return kinds[0] == "file"     ? loadMesh(scenePath(folder, inner.text())).mesh
-                             : kinds[0] == "torus"  ? torus(inner)
-                             : kinds[0] == "sphere" ? sphere(inner)
-                             : kinds[0] == "disk"   ? disk(inner)
-                                                    : quad(inner);
-                  })};
+    SceneMesh out{name, kinds[0] == "file"     ? meshFile(inner, folder)
+                        : kinds[0] == "torus"  ? torus(inner)
+                        : kinds[0] == "sphere" ? sphere(inner)
+                        : kinds[0] == "disk"   ? disk(inner)
+                                               : quad(inner)};
     ifThere(field, "fit", [&](const JsonField& f) {
         const float size = lengthOr(field, "fit", 2);
         named(f, [&] {
@@ -89,8 +90,9 @@ SceneVolume sceneVolume(const std::string& name, const JsonField& field, const s
         out.method = f.choice({"march", "slices"}) == 0 ? VolumeMethod::March : VolumeMethod::Slices;
     });
     ifThere(field, "step", [&](const JsonField& f) { out.step = f.positive(); });
-    const JsonField file = field.at("file");
-    out.volume = named(file, [&] { return std::make_shared<Volume>(readVolume(scenePath(folder, file.text()))); });
+    out.volume = namedText(field.at("file"), [&](const std::string& file) {
+        return std::make_shared<Volume>(readVolume(scenePath(folder, file)));
+    });
     return out;
 }
 

@@ -45,4 +45,11 @@ auto named(const JsonField& field, Call&& call) {
     }
 }
 
+/// The same of call(text), of a field that must be a text.
+template <typename Call>
+auto namedText(const JsonField& field, Call&& call) {
+    const std::string text = field.text();
+    return named(field, [&] { return call(text); });
+}
+
 }  // namespace nacre

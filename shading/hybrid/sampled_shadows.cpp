@@ -1,6 +1,7 @@
 #include "shading/hybrid/sampled_shadows.hpp"
 
 #include <epoxy/gl.h>
+#include <fmt/format.h>
 
 #include <chrono>
 #include <limits>
@@ -170,6 +171,9 @@ GlName SampledShadows::draw(const GeometryBuffer& geometry, const Camera& camera
     require(options.points >= 1 && options.points <= MappedShadows::kMostPoints,
             "sampled shadows: expected 1 to 64 points");
     require(!scene_.lights.empty(), "sampled shadows: expected a light");
+    for (const SceneNode& node : scene_.nodes)
+        if (node.volume >= 0)
+            throw Error(fmt::format("sampled shadows: expected meshes alone, found a volume at node '{}'", node.name));
     follow(nodes);
     allocate(geometry.width(), geometry.height());
     if (options.method != SampledShadowMethod::Fastest) {

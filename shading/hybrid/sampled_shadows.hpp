@@ -38,7 +38,8 @@ public:
 
     /// Draws the levels of each light with a shadow; of others they are 0. \param geometry  drawn with `camera`; nodes:
     /// nodeTransforms' result. \return  a layer a light, until the next call
-    /// \throws as MappedShadows::add and CountedShadows; std::invalid_argument for points < 1
+    /// \throws as MappedShadows::add and CountedShadows; std::invalid_argument for points < 1; nacre::Error for nodes
+    /// with volumes
     GlName draw(const GeometryBuffer& geometry, const Camera& camera, const std::vector<glm::dmat4>& nodes,
                 const SampledShadowOptions& options);
     /// Of the last frame; the figures only with Fastest.

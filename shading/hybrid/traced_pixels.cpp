@@ -13,6 +13,9 @@ namespace {
 
 void checkTraceable(const SceneDescription& scene) {
     if (scene.sky.asset >= 0) throw Error("traced pixels: expected a background of one colour, found a map");
+    for (const SceneNode& node : scene.nodes)
+        if (node.volume >= 0)
+            throw Error(fmt::format("traced pixels: expected meshes alone, found a volume at node '{}'", node.name));
     for (const SceneMaterial& m : scene.materials) {
         const auto fail = [&](const char* what) {
             throw Error(fmt::format("traced pixels: material '{}': expected {}", m.name, what));

@@ -40,7 +40,7 @@ public:
     /// \param scene  outlives this \param brdfs  one a material, empty ones reflect nothing; those that are the same in
     ///        all directions are taken as diffuse
     /// \throws nacre::Error for specular surfaces that spread, have fog, a texture or a share of own light, for a
-    ///         surrounding, a relief, or a map as background; nacre::Error when Embree fails
+    ///         surrounding, a relief, a volume, or a map as background; nacre::Error when Embree fails
     SpecularTracer(const SceneDescription& scene, const std::vector<glm::dmat4>& nodes,
                    std::vector<BrdfFunction> brdfs);
 

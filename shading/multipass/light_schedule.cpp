@@ -61,13 +61,13 @@ std::vector<ScheduledLight> scheduledLights(const SceneDescription& scene, const
     std::vector<ScheduledLight> out;
     const std::vector<bool> sending = sendingFaces(scene, faces);
     for (const ShadowedLamp& lamp : lamps) {
-        if (countsShadows(on)) out.push_back({lamp.light, {}});
+        if (countsShadows(on)) out.push_back({lamp.light, {}, lamp.points.size()});
         for (std::size_t k = 0; k < lamp.points.size(); ++k)
             for (VirtualLight& image : virtualLights(faces, sending, lamp.points[k], on.specular)) {
                 if (!on.specular.partial && isWeak(image, faces)) continue;
                 image.light = lamp.light;
                 image.point = k;
-                out.push_back({lamp.light, std::move(image)});
+                out.push_back({lamp.light, std::move(image), lamp.points.size()});
                 if (out.size() > on.specular.most)
                     throw Error(fmt::format("light paths: expected at most {}, found more", on.specular.most));
             }

@@ -8,11 +8,12 @@
 
 namespace nacre {
 
-/// A line a pass. \param names  of the scene's nodes, and of its lights
+/// A line a pass, and what the kinds of passes that occur do. \param names  of the scene's nodes, and of its lights
 std::string passListText(const PassSchedule& schedule, const std::vector<std::string>& names,
                          const std::vector<std::string>& lightNames = {});
 
-/// "lamp > mirror reflects"
+/// "lamp > mirror reflects", "lamp, 16 points", "lamp, point 3 of 16 > mirror reflects"; a frosted face's sample at the
+/// end
 std::string lightText(const PassSchedule& schedule, int light, const std::vector<std::string>& names,
                       const std::vector<std::string>& lightNames);
 

@@ -1,6 +1,8 @@
 #include "shading/multipass/radiosity.hpp"
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 
 #include "core/error.hpp"
 #include "core/shadow_view.hpp"
@@ -159,6 +161,12 @@ private:
 
 }  // namespace
 
+/// What is left falls about as an exponential of the shots.
+static double shareDone(const IndirectLight& light, const RadiosityOptions& options) {
+    const double byPower = light.left > 0 ? std::log(light.left) / std::log(options.left) : 1;
+    return std::clamp(std::max(byPower, double(light.shots) / options.mostShots), 0.0, 1.0);
+}
+
 IndirectLight indirectLight(std::span<const RadiositySurface> surfaces, std::span<const Light> lights,
                             const Visible& visible, const RadiosityOptions& options) {
     for (const RadiositySurface& s : surfaces) {
@@ -166,13 +174,16 @@ IndirectLight indirectLight(std::span<const RadiositySurface> surfaces, std::spa
         for (int c = 0; c < 3; ++c) require(s.albedo[c] >= 0 && s.albedo[c] < 1, "radiosity: albedo must be in [0, 1)");
     }
     Solver solver(surfaces, visible);
+    report(options.progress, "radiosity", 0);
     solver.lamps(lights);
     IndirectLight out;
-    while (!solver.empty() && out.shots < options.mostShots && solver.leftShare() > options.left) {
-        if (!(solver.shoot() > 0)) break;
-        ++out.shots;
-    }
     out.left = solver.leftShare();
+    while (!solver.empty() && out.shots < options.mostShots && out.left > options.left) {
+        if (!(solver.shoot() > 0)) break;
+        out.left = solver.leftShare();
+        ++out.shots;
+        report(options.progress, "radiosity", shareDone(out, options));
+    }
     out.radiance = solver.radiance(surfaces);
     return out;
 }

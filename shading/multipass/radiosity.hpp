@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/light_area.hpp"
+#include "core/progress.hpp"
 
 namespace nacre {
 
@@ -22,6 +23,7 @@ using Visible = std::function<bool(const Vec3&, const Vec3&)>;
 struct RadiosityOptions {
     double left = 0.01;  ///< share of the first bounce's power that may stay unshot
     int mostShots = 5000;
+    Progress progress{};  ///< a shot each
 };
 
 struct IndirectLight {

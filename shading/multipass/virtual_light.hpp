@@ -60,6 +60,7 @@ bool isRefracted(const VirtualLight& light);
 struct ScheduledLight {
     std::size_t light = 0;              ///< of the scene
     std::optional<VirtualLight> image;  ///< none: the lamp itself, with all points of its area
+    std::size_t points = 1;             ///< of the area
 };
 
 /// Faces that take part: their nodes cast shadows. What isn't blocked by a face isn't sent on.

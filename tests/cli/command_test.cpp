@@ -2,6 +2,7 @@
 #include <gmock/gmock.h>
 
 #include <csignal>
+#include <cstdlib>
 #include <nlohmann/json.hpp>
 #include <thread>
 
@@ -35,6 +36,15 @@ std::vector<std::string> bake(const std::filesystem::path& output, std::vector<s
     std::vector<std::string> arguments = {"factorize", "blinn-phong:kd=0.2,ks=0.5,n=20", "-o", output.string()};
     arguments.insert(arguments.end(), more.begin(), more.end());
     return arguments;
+}
+
+TEST(CommandUsage, WithoutTheViewerViewSaysHowToGetIt) {
+    const Scratch scratch;
+    std::filesystem::copy_file(NACRE_COMMAND, scratch / "nacre");
+    const std::string err = (scratch / "err").string();
+    EXPECT_NE(std::system(((scratch / "nacre").string() + " view a.obj 2> " + err).c_str()), 0);
+    EXPECT_THAT(contents(err),
+                AllOf(StartsWith("nacre: view: expected the viewer"), HasSubstr("./dev view builds it")));
 }
 
 TEST(CommandUsage, HelpOfEveryVerbGoesToStandardOutput) {

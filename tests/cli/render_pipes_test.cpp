@@ -111,6 +111,62 @@ TEST(CommandRenderPipes, StandardDescriptorsMayBeClosed) {
     EXPECT_EQ(json::parse(run.out)["pipes"]["draw_seconds"].size(), 3u);
 }
 
+TEST(CommandRenderPipes, ShadowsByVolumesAloneAreShared) {
+    const Scratch scratch;
+    std::string scene = contents(room(scratch));
+    const std::string glass = R"("material": "glass")";
+    scene.replace(scene.find(glass), glass.size(), R"("material": "matt")");
+    writeFile(scratch / "matt.json", scene);
+    const auto draw = [&](const std::string& output, const std::vector<std::string>& more) {
+        std::vector<std::string> all = {
+            "render", scratch / "matt.json", "-o",      scratch / output, "--size", "48x48", "--samples",
+            "1",      "--shadows",           "volumes", "--light-points", "6",      "--json"};
+        all.insert(all.end(), more.begin(), more.end());
+        const Outcome run = nacre(all);
+        EXPECT_EQ(run.code, 0) << run.err;
+        return json::parse(run.out);
+    };
+    draw("plain.exr", {});
+    const json data = draw("shared.exr", {"--pipes", "2"});
+    EXPECT_LT(difference(scratch / "plain.exr", scratch / "shared.exr"), 1.0 / 255);
+    EXPECT_EQ(data["pipes"]["count"], 2);
+    for (const json& seconds : data["pipes"]["draw_seconds"]) EXPECT_GT(seconds, 0);
+    const Outcome mirrors =
+        nacre({"render", room(scratch), "-o", scratch / "refused.exr", "--shadows", "volumes", "--pipes", "2"});
+    EXPECT_EQ(mirrors.code, 2);
+    EXPECT_THAT(mirrors.err, HasSubstr("--pipes: expected --specular traced beside it"));
+}
+
+TEST(CommandRenderPipes, SampledShadowsTimeIsShadows) {
+    const Scratch scratch;
+    for (const char* method : {"sampled-maps", "sampled-volumes"}) {
+        const Outcome run =
+            nacre({"render", room(scratch), "-o", scratch / "s.png", "--size", "48x48", "--samples", "1", "--specular",
+                   "traced", "--shadows", method, "--pipes", "2", "--repeat", "2", "--json"});
+        ASSERT_EQ(run.code, 0) << run.err;
+        const json shares = json::parse(run.out)["pipes"]["shares"];
+        EXPECT_GT(shares["shadow"], 0) << method;
+        EXPECT_EQ(shares["indirect"], 0) << method << ": there is none";
+    }
+}
+
+TEST(CommandRenderPipes, TextSaysWhatIsLeftOut) {
+    const Scratch scratch;
+    const auto text = [&](const std::vector<std::string>& more) {
+        std::vector<std::string> all = {"render", room(scratch), "-o",         scratch / "t.png",
+                                        "--size", "16x16",       "--specular", "traced"};
+        all.insert(all.end(), more.begin(), more.end());
+        const Outcome run = nacre(all);
+        EXPECT_EQ(run.code, 0) << run.err;
+        return run.out;
+    };
+    const std::string maps = text({"--pipes", "1"});
+    EXPECT_THAT(maps, HasSubstr("note: shadow maps take lamps with an area as their middle"));
+    EXPECT_THAT(maps, HasSubstr("1 pipe, "));
+    for (const char* method : {"volumes", "sampled-maps"})
+        EXPECT_THAT(text({"--shadows", method}), testing::Not(HasSubstr("shadow maps take"))) << method;
+}
+
 std::vector<pid_t> childrenOf(pid_t process) {
     const std::string id = std::to_string(process);
     std::ifstream file("/proc/" + id + "/task/" + id + "/children");
@@ -173,7 +229,8 @@ TEST(CommandRenderPipes, RefusesWhatDoesNotFit) {
     }
     const Outcome plain = nacre({"render", room(scratch), "-o", scratch / "refused.exr", "--pipes", "2"});
     EXPECT_EQ(plain.code, 2);
-    EXPECT_THAT(plain.err, HasSubstr("--pipes: expected --indirect virtual-lights or --specular traced beside it"));
+    EXPECT_THAT(plain.err,
+                HasSubstr("--pipes: expected --indirect virtual-lights, --specular traced or --shadows volumes"));
 }
 
 #ifdef NACRE_MPIRUN
@@ -216,6 +273,7 @@ TEST_F(MpiRanks, DrawThePictureOfOne) {
             ASSERT_EQ(run.code, 0) << run.err;
             EXPECT_LT(difference(scratch / "alone.exr", scratch / "mpi.exr"), 1.0 / 255) << count;
             EXPECT_EQ(json::parse(run.out)["pipes"]["count"], count);
+            EXPECT_EQ(run.err.find("--mpi: found one rank") != std::string::npos, count == 1) << run.err;
             std::filesystem::remove(scratch / "mpi.exr");
         }
 }

@@ -71,7 +71,8 @@ std::string leapingTetrahedron() {
 TEST(CommandTransfer, JsonAndFileSayTheSame) {
     const Scratch scratch;
     const std::string out = scratch / "a.tv";
-    const Outcome run = nacre({"transfer", "cloth", "-o", out, "--frames", "1:4", "--reference", "64", "--json"});
+    const Outcome run =
+        nacre({"transfer", "cloth", "-o", out, "--frames", "1:4", "--reference", "64", "--json", "--quiet"});
     ASSERT_EQ(run.code, 0) << run.err;
     EXPECT_EQ(run.err, "");
     EXPECT_EQ(scratch.fileCount(), 1u);

@@ -142,6 +142,15 @@ TEST_F(SceneFile, WrongTypesAndRanges) {
     refuses(R"("nodes": {"n": {"scale": [1, 0, 1]}})", "/nodes/n/scale", "0");
     refuses(R"("nodes": {"n": {"angleDeg": 4}})", "/nodes/n/angleDeg", "axis");
     refuses(R"("meshes": {"q": {"quad": {}}}, "nodes": {"n": {"mesh": "q"}})", "/nodes/n", "\"material\"");
+    for (const char* rest : {R"("meshes": {"q": {"quad": {"size": [1, 2]}}})", R"("meshes": {"q": {"file": 3}})",
+                             R"("volumes": {"v": {"iso": 1, "file": 3}})", R"("materials": {"m": {"model": 3}})",
+                             R"("materials": {"m": {"specular": {"filter": 3}}})"}) {
+        const std::string error = errorOf(sceneText(rest));
+        EXPECT_EQ(error.find("scene.json: "), error.rfind("scene.json: ")) << "one place: " << error;
+    }
+    for (const char* v : {"[0, 0, 0]", "[-2, 0, 0]"})
+        refuses(R"("lights": {"l": {"type": "point", "area": {"u": [1, 0, 0], "v": )" + std::string(v) + "}}}",
+                "/lights/l/area", "parallel");
     refuses(
         R"("nodes": {"n": {}}, "animation": {"tracks": [{"node": "n", "path": "scale", "times": [1, 1], "values": []}]})",
         "/animation/tracks/0/times/1", "after 1");

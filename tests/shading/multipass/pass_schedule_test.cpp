@@ -15,6 +15,7 @@
 namespace nacre {
 namespace {
 
+using ::testing::AllOf;
 using ::testing::HasSubstr;
 
 PassSchedule scheduleOf(const SceneDescription& scene, const SpecularOptions& options = {}, int size = 128) {
@@ -85,7 +86,8 @@ TEST(PassSchedule, EachViewAddsEachLight) {
     EXPECT_EQ(countsOf(schedule)[PassKind::Light], 4);
     expectCountsReturn(schedule);
     EXPECT_THAT(passListText(schedule, {"mirror"}, {"lamp"}),
-                HasSubstr("lamp > mirror reflects: add in 1 light volume"));
+                AllOf(HasSubstr("lamp > mirror reflects: add in 1 light volume"), HasSubstr("of 2 parts of the path"),
+                      HasSubstr("light passes in each view, at most: 1 of lamps, each with all its points, 1 of")));
     SpecularOptions flat = on.specular;
     flat.keepDepth = false;
     EXPECT_THROW(makeSchedule(faces, input, flat), Error);

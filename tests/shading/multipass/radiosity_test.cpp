@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "shading/primitives.hpp"
 #include "shadow_meshes.hpp"
 
@@ -17,7 +19,14 @@ TEST(Radiosity, InsideASphereBouncesAreAGeometricSeries) {
     const Rgb albedo(0.5, 0.2, 0.8);
     const Light lamp{false, Vec3(0), Rgb(4), {}};
     const RadiositySurface surface{sphere, albedo};
-    const IndirectLight out = indirectLight({&surface, 1}, {&lamp, 1}, always, {.left = 1e-4});
+    std::vector<double> shares;
+    RadiosityOptions options{.left = 1e-4};
+    options.progress = [&](const std::string&, double share) { shares.push_back(share); };
+    const IndirectLight out = indirectLight({&surface, 1}, {&lamp, 1}, always, options);
+    EXPECT_EQ(shares.size(), 1u + static_cast<std::size_t>(out.shots));
+    EXPECT_EQ(shares.front(), 0);
+    EXPECT_TRUE(std::is_sorted(shares.begin(), shares.end()));
+    EXPECT_EQ(shares.back(), 1);
     ASSERT_EQ(out.radiance.size(), 1u);
     ASSERT_EQ(out.radiance[0].size(), sphere.positions.size());
     double sum[3]{};
