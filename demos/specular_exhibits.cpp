@@ -67,7 +67,10 @@ Exhibit room(const Task& task) {
     const Image truth = traced(task, scene, size, size, kFull);
     Panels panels(task, scene);
     panels.builder.row(fmt::format("Against rays over up to {} mirrors and panes", kFull));
-    for (const int depth : {4, 2, 1}) panels.panel(fmt::format("depth {}", depth), deep(depth), truth);
+    for (const int depth : {4, 2, 1}) {
+        panels.panel(fmt::format("depth {}", depth), deep(depth), truth);
+        if (depth < SpecularOptions().depth) panels.builder.forComparison();
+    }
     panels.builder.row("Against rays over as many: what virtual viewpoints do wrong", false);
     for (const int depth : {4, 2, 1})
         panels.panel(fmt::format("depth {}", depth), deep(depth), traced(task, scene, size, size, depth));
@@ -210,8 +213,7 @@ Exhibit frosted(const Task& task) {
             fmt::format("m = 0.12, {} {}", count, sampling == ShearSampling::Random ? "random" : "of low discrepancy"),
             frostedScene(task.options.sceneFolder, 0.12, 0), options);
     }
-    builder.row("Microfacets: each view turned as one facet turns the incident ray, against facets for each ray",
-                false);
+    builder.row("Microfacets: each view turned as one facet turns the incident ray, against facets for each ray");
     for (const double roughness : {0.1, 0.25}) {
         SceneDescription scene = readScene(task.options.sceneFolder / "plates.json");
         for (SceneMaterial& m : scene.materials)
