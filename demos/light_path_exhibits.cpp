@@ -101,7 +101,11 @@ Exhibit regions(const Task& task) {
         "a "
         "ball below it, in a sun from the left at 45 degrees. From left to right: primary light; primary and refracted "
         "light; refracted light alone, in the pane's shadow; the pane's shadow. The cube's refracted shadow leaves "
-        "primary light and nothing, and meets the ball's. Each region's light is known in closed form, and tested to "
+        "primary light and nothing, and meets the ball's. PR94's eight: 1 primary light; 2 primary and refracted; 3 "
+        "the cube's refracted shadow in primary light; 4 the same "
+        "without; 5 where it meets the ball's shadow; 6 the ball's alone; 7 refracted light; 8 the pane's shadow. The "
+        "camera is below pane, cube and ball, which aren't seen. Each region's light is known in closed form, and "
+        "tested to "
         "1 %.";
     e.scene = "A matt floor of 80 %; the pane transmits by Fresnel, flux is kept.";
     e.commands = {
