@@ -99,7 +99,10 @@ Exhibit stages(const Task& task) {
     e.caption = fmt::format(
         "HYBRID figure 10. An item buffer from the eye tags {} pixels of mirror and glass, whose rays the processor "
         "follows while the pipeline draws the rest; {:.0f} % of their ends take light that the picture has already. "
-        "Light that surfaces reflect once comes from {} virtual lights with shadow maps.",
+        "Light that surfaces reflect once comes from {} virtual lights with shadow maps. All panels have one exposure, "
+        "so a lamp seen in full, 1, is grey. Pixels on "
+        "the very edge where two walls meet tie with the sides of the walls' own shadow volumes: the dashes there are "
+        "wrong.",
         report.traced.pixels, 100 * report.traced.reused, report.lights);
     e.scene = "demos/scenes/glass-sphere.json; square lamp of 16 points.";
     e.commands = {

@@ -166,7 +166,9 @@ Exhibit plates(const Task& task) {
         "drawn "
         "last covers. One virtual eye is right for one incident angle: on the normal through the eye for all azimuths "
         "of it, "
-        "turned about the incident point for one ray alone. The table has what is left, against Snell's law: the worst "
+        "turned about the incident point for one ray alone. Here the "
+        "view vector meets the plate near its middle, so that the paper's angle does as well as ours. The table has "
+        "what is left, against Snell's law: the worst "
         "pixel, "
         "of 512 over 40 degrees, for points behind the face by a third of the eye's distance; index 1.5.";
     e.scene = "A floor with stripes, bars, a ball and a ring behind a face of 1.5 x 1.2.";
