@@ -92,8 +92,10 @@ Exhibit shadows(const Task& task) {
         const std::vector<Rgb> truth = wall.truth(lamp);
         builder.row(fmt::format("Light from the upper left, {} degrees above the plane", elevation));
         for (const BumpShadow shadow :
-             {BumpShadow::None, BumpShadow::HardEllipse, BumpShadow::Ellipse, BumpShadow::Horizon})
+             {BumpShadow::None, BumpShadow::HardEllipse, BumpShadow::Ellipse, BumpShadow::Horizon}) {
             wall.panel(builder, words(shadow), lamp, shadow, truth);
+            if (shadow == BumpShadow::None) builder.forComparison();
+        }
     }
     Exhibit e;
     e.section = kSection;
@@ -156,6 +158,7 @@ Exhibit onObjects(const Task& task) {
                     renderDirect(task.loader, target, torus.gpu, view, matt, relief);
                 },
                 {}, truth);
+            if (shadow == BumpShadow::None) builder.forComparison();
         }
     }
     Exhibit e;

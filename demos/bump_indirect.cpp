@@ -79,6 +79,7 @@ Exhibit indirectExhibit(const Task& task) {
                     renderDirect(task.loader, target, plane.gpu, view, brdf, surface);
                 },
                 {}, truth);
+            if (!bounces) builder.forComparison();
         }
     }
     Exhibit e;

@@ -198,9 +198,10 @@ Exhibit softCountedExhibit(const Task& task) {
     for (const int count : {4, 9, 16, 25}) {
         view.shadows.begin(view.geometry, view.scene.camera);
         for (const Light& p : pointsOfArea(lamp, area, count)) view.shadows.add(homogeneous(p), 1.0 / count);
-        builder.row(fmt::format("{} points of the lamp", count), count == 16);
+        builder.row(fmt::format("{} points of the lamp", count), count >= 16);
         const auto add = [&](const char* label, ShadowFilter filter) {
             builder.compared(label, grey(view, view.shadows.read(filter), lamp.position), truth);
+            if (filter != ShadowFilter::EdgeStopping) builder.forComparison();
         };
         add("levels as they are", ShadowFilter::None);
         add("7 × 7 average", ShadowFilter::Box);

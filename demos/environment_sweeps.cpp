@@ -131,9 +131,9 @@ Exhibit sunExhibit(const Task& task) {
     for (const double p : roughness) maps.emplace_back(sampledGgx(coarse, p * p, kSize, kSamples));
     ExhibitBuilder builder(task.loader, task.id, task.builder());
     for (const bool sampled : {false, true}) {
-        builder.row(sampled ? fmt::format("For comparison: {} samples of the lobe a texel, as is usual", kSamples)
-                            : "Filtered by nacre",
-                    !sampled);
+        builder.row(
+            sampled ? fmt::format("{} samples of the lobe a texel, as is usual", kSamples) : "Filtered by nacre",
+            !sampled);
         for (std::size_t i = 0; i < roughness.size(); ++i) {
             EnvironmentSurface surface;
             surface.reflection.map = &maps[i + (sampled ? roughness.size() : 0)];

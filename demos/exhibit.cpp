@@ -16,15 +16,29 @@ void forEachPanel(const Exhibit& exhibit, Body body) {
         for (const Panel& panel : row.panels) body(panel);
 }
 
+template <class Body>
+void forEachOwn(const Exhibit& exhibit, Body body) {
+    for (const PanelRow& row : exhibit.rows)
+        for (const Panel& panel : row.panels)
+            if (row.ours && panel.ours) body(panel);
+}
+
+std::string rowTitle(const PanelRow& row) {
+    if (row.ours) return escapeHtml(row.title);
+    const std::string mark = "<span class=\"soft\">for comparison</span>";
+    return row.title.empty() ? mark : escapeHtml(row.title) + "; " + mark;
+}
+
 std::string panelFacts(const Panel& panel) {
     std::string text = escapeHtml(panel.label);
     if (panel.milliseconds) text += "; " + formatNumber(*panel.milliseconds) + " ms";
+    if (!panel.ours) text += text.empty() ? "for comparison" : "; for comparison";
     return text;
 }
 
 std::string panelHtml(const Exhibit& e, const Panel& panel) {
     const std::string name = e.title + ": " + panel.label;
-    std::string html = "<div class=\"pair\">" + figureHtml(panel.picture, name, panelFacts(panel));
+    std::string html = pairHtml(panel.comparison ? 3 : 1) + figureHtml(panel.picture, name, panelFacts(panel));
     if (panel.comparison) {
         const Comparison& c = *panel.comparison;
         html += figureHtml(c.reference, name + ", reference", "reference");
@@ -37,7 +51,7 @@ std::string panelHtml(const Exhibit& e, const Panel& panel) {
 
 nlohmann::json panelJson(const Exhibit& e, const Panel& panel) {
     checkPicture(e.id, panel.picture);
-    nlohmann::json json{{"label", panel.label}, {"picture", panel.picture.file}};
+    nlohmann::json json{{"label", panel.label}, {"picture", panel.picture.file}, {"ours", panel.ours}};
     if (panel.milliseconds) json["milliseconds"] = checkedFinite(e.id, "milliseconds", *panel.milliseconds);
     if (!panel.comparison) return json;
     const Comparison& c = *panel.comparison;
@@ -67,15 +81,15 @@ std::string tableHtml(const ExhibitTable& table) {
 
 std::optional<double> lowestPsnr(const Exhibit& exhibit) {
     std::optional<double> lowest;
-    for (const PanelRow& row : exhibit.rows)
-        for (const Panel& p : row.panels)
-            if (row.ours && p.comparison) lowest = std::min(lowest.value_or(p.comparison->psnr), p.comparison->psnr);
+    forEachOwn(exhibit, [&](const Panel& p) {
+        if (p.comparison) lowest = std::min(lowest.value_or(p.comparison->psnr), p.comparison->psnr);
+    });
     return lowest;
 }
 
 std::optional<double> longestFrame(const Exhibit& exhibit) {
     std::optional<double> longest;
-    forEachPanel(exhibit, [&](const Panel& p) {
+    forEachOwn(exhibit, [&](const Panel& p) {
         if (p.milliseconds) longest = std::max(longest.value_or(0), *p.milliseconds);
     });
     return longest;
@@ -95,7 +109,7 @@ std::string exhibitHtml(const Exhibit& e) {
     std::string html =
         fmt::format("<article id=\"{}\"><h3>{}</h3><p>{}</p>\n", e.id, escapeHtml(e.title), escapeHtml(e.caption));
     for (const PanelRow& row : e.rows) {
-        if (!row.title.empty()) html += "<h4>" + escapeHtml(row.title) + "</h4>\n";
+        if (const std::string title = rowTitle(row); !title.empty()) html += "<h4>" + title + "</h4>\n";
         html += "<div class=\"shots\">\n";
         for (const Panel& panel : row.panels) html += panelHtml(e, panel);
         html += "</div>\n";

@@ -28,12 +28,15 @@ struct Panel {
     Picture picture;
     std::optional<Comparison> comparison;  ///< none: a chart or a map shown as it is
     std::optional<double> milliseconds;    ///< of one frame, without background, median
+    bool ours = true;                      ///< as PanelRow's
 };
 
 struct PanelRow {
     std::string title;  ///< may be empty
     std::vector<Panel> panels;
-    bool ours = true;  ///< false: another method, shown for comparison; the summary leaves it out
+    /// false: shown for comparison (another method, a part switched off, a setting coarser than the default, a truth
+    /// that leaves something out); the page says so and the summary leaves it out
+    bool ours = true;
 };
 
 /// Text in rows, as many cells each as `head` has; without rows nothing is shown.
@@ -53,10 +56,10 @@ struct Exhibit {
     ExhibitTable table{};
 };
 
-/// The lowest PSNR of its own panels (PanelRow::ours); nothing where none has a truth.
+/// The lowest PSNR of its own panels (`ours`, their rows' too); nothing where none has a truth.
 std::optional<double> lowestPsnr(const Exhibit& exhibit);
 
-/// The longest frame of its panels [ms]; nothing where none was timed.
+/// The longest frame of its own panels [ms]; nothing where none was timed.
 std::optional<double> longestFrame(const Exhibit& exhibit);
 
 /// An <article>, and its facts for programs; checked as galleryPage checks entries: \throws std::invalid_argument for

@@ -81,15 +81,19 @@ void ExhibitBuilder::panel(const std::string& label, std::function<void(const Re
         {label, halved(target.read()), truth.radiance, truth.coverage, nullptr, std::move(draw)});
 }
 
-void ExhibitBuilder::compared(const std::string& label, Image radiance, Image truth) {
+void ExhibitBuilder::compared(const std::string& label, Image radiance, Image truth,
+                              std::optional<double> milliseconds) {
     Image mask(truth.width(), truth.height(), 1);
     for (float& v : mask.data()) v = 1;
-    rows_.back().panels.push_back({label, std::move(radiance), std::move(truth), std::move(mask), nullptr, {}});
+    rows_.back().panels.push_back(
+        {label, std::move(radiance), std::move(truth), std::move(mask), nullptr, {}, milliseconds});
 }
 
 void ExhibitBuilder::picture(const std::string& label, Image radiance) {
     rows_.back().panels.push_back({label, std::move(radiance), {}, {}, nullptr, {}});
 }
+
+void ExhibitBuilder::forComparison() { rows_.back().panels.back().ours = false; }
 
 double ExhibitBuilder::whiteOfTruths() const {
     double white = 0;
@@ -111,6 +115,8 @@ double ExhibitBuilder::scaleOfDifferences(double white) const {
 Panel ExhibitBuilder::encode(const Raw& raw, const std::string& stem, double white, double scale) const {
     Panel panel;
     panel.label = raw.label;
+    panel.milliseconds = raw.milliseconds;
+    panel.ours = raw.ours;
     panel.picture = encodePicture(stem + ".png", raw.drawn, white);
     if (raw.truth.empty()) return panel;
     const ImageDifference d = compareImages(raw.drawn, raw.truth, white, raw.mask);

@@ -48,10 +48,12 @@ public:
     /// Whatever draws, and the truth's picture of the same points (RaytraceOptions::supersample = kSupersample). Timed
     /// with the others.
     void panel(const std::string& label, std::function<void(const RenderTarget&)> draw, const RaytracedPicture& truth);
-    /// A picture that was drawn before, and its truth: both of one size. Not timed.
-    void compared(const std::string& label, Image radiance, Image truth);
+    /// A picture that was drawn before, and its truth: both of one size. \param milliseconds  that its frame took
+    void compared(const std::string& label, Image radiance, Image truth, std::optional<double> milliseconds = {});
     /// A picture as it is.
     void picture(const std::string& label, Image radiance);
+    /// The last panel is shown for comparison (Panel::ours).
+    void forComparison();
     /// Compares inside the outline, encodes, times. \param white  radiance shown as white; 0 = the largest pictureWhite
     /// of the truths
     void finish(Exhibit& exhibit, double white = 0);
@@ -62,6 +64,8 @@ private:
         Image drawn, truth, mask;                         ///< truth empty: a picture as it is
         const Body* body = nullptr;                       ///< none: another truth, or a picture as it is
         std::function<void(const RenderTarget&)> draw{};  ///< empty: a picture as it is
+        std::optional<double> milliseconds{};
+        bool ours = true;
     };
     struct RawRow {
         std::string title;

@@ -66,6 +66,7 @@ Exhibit byMirror(const Task& task) {
     const Image full = panels.truth(1);
     panels.builder.row("Against rays from the lamp, directly and by way of the mirror");
     panels.panel("no light by the mirror", lightDepth(0), full);
+    panels.builder.forComparison();
     panels.panel("light volumes, shadow maps", lightDepth(1, ShadowMethod::Maps), full);
     panels.panel("light volumes, shadow volumes", lightDepth(1), full);
     Exhibit e;
@@ -90,6 +91,7 @@ Exhibit regions(const Task& task) {
     const Image full = panels.truth(1);
     panels.builder.row("Against rays from the sun, directly and through the pane");
     panels.panel("no light through the pane", lightDepth(0), full);
+    panels.builder.forComparison();
     panels.panel("with its light volume", lightDepth(1), full);
     Exhibit e;
     e.section = "Light by way of mirrors and glass (MPR section 4)";
@@ -99,7 +101,11 @@ Exhibit regions(const Task& task) {
         "a "
         "ball below it, in a sun from the left at 45 degrees. From left to right: primary light; primary and refracted "
         "light; refracted light alone, in the pane's shadow; the pane's shadow. The cube's refracted shadow leaves "
-        "primary light and nothing, and meets the ball's. Each region's light is known in closed form, and tested to "
+        "primary light and nothing, and meets the ball's. PR94's eight: 1 primary light; 2 primary and refracted; 3 "
+        "the cube's refracted shadow in primary light; 4 the same "
+        "without; 5 where it meets the ball's shadow; 6 the ball's alone; 7 refracted light; 8 the pane's shadow. The "
+        "camera is below pane, cube and ball, which aren't seen. Each region's light is known in closed form, and "
+        "tested to "
         "1 %.";
     e.scene = "A matt floor of 80 %; the pane transmits by Fresnel, flux is kept.";
     e.commands = {
@@ -114,6 +120,7 @@ Exhibit bevelledGlass(const Task& task) {
     const Image truth = panels.truth(2);
     panels.builder.row("Two bevelled panes in a door");
     panels.panel("no light through the panes", lightDepth(0), truth);
+    panels.builder.forComparison();
     panels.panel("over two faces", lightDepth(2), truth);
     Exhibit e;
     e.section = "Light by way of mirrors and glass (MPR section 4)";
@@ -135,6 +142,7 @@ Exhibit stainedGlass(const Task& task) {
     const Image coloured = stained.truth(1);
     stained.builder.row("Stained glass: the light volume times the picture");
     stained.panel("no light through the glass", lightDepth(0), coloured);
+    stained.builder.forComparison();
     stained.panel("projected", lightDepth(1), coloured);
     Exhibit e;
     e.section = "Light by way of mirrors and glass (MPR section 4)";

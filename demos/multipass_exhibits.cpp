@@ -110,6 +110,7 @@ Exhibit softShadowsExhibit(const Task& task) {
     e.table.head = {"way", "points", "volumes stored", "bytes"};
     const auto add = [&](const char* way, SoftShadows soft, int points) {
         panels.panel(fmt::format("{}, {} points", way, points), volumes(soft, points), truth);
+        if (points < SceneSwitches().lightPoints) panels.builder.forComparison();
         const ShadowVolumeCounts c = panels.counts(volumes(soft, points));
         e.table.rows.push_back({way, std::to_string(points), std::to_string(c.made + c.kept), kilobytes(c.bytes)});
     };

@@ -102,6 +102,7 @@ public:
         Image whole(size_, size_, 1);
         for (float& v : whole.data()) v = 1;
         builder.panel(s.label, [&renderer](const RenderTarget& t) { renderer.render(t); }, {full, whole});
+        if (s.door && (s.depth < 4 || s.lightDepth < 2)) builder.forComparison();  // the truth has all faces' light
         const PassSchedule& schedule = renderer.schedule();
         table.rows.push_back({s.label, std::to_string(s.depth), std::to_string(s.lightDepth),
                               fmt::format("{} / {} / {}", drawn(schedule, PassKind::Surfaces),

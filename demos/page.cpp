@@ -54,13 +54,13 @@ std::string summaryTable(const Gallery& gallery) {
 
 std::string exhibitTable(const Gallery& gallery) {
     if (gallery.exhibits.empty()) return {};
-    std::string html =
-        "<table class=\"cards\">" + headRowHtml({"exhibits", "lowest PSNR", "longest frame"}) + "<tbody>\n";
+    std::string html = "<table class=\"cards\">" +
+                       headRowHtml({"exhibits", "lowest PSNR of ours", "longest frame of ours"}) + "<tbody>\n";
     for (const Exhibit& e : gallery.exhibits) {
         const std::optional<double> psnr = lowestPsnr(e), frame = longestFrame(e);
         html += fmt::format("<tr><td><a href=\"#{}\">{}</a></td>", e.id, escapeHtml(e.title)) +
-                cellHtml("lowest PSNR", psnr ? psnrText(*psnr) : "–") +
-                cellHtml("longest frame", frame ? formatNumber(*frame) + " ms" : "–") + "</tr>\n";
+                cellHtml("lowest PSNR of ours", psnr ? psnrText(*psnr) : "–") +
+                cellHtml("longest frame of ours", frame ? formatNumber(*frame) + " ms" : "–") + "</tr>\n";
     }
     return html + "</tbody></table>\n";
 }
@@ -115,7 +115,7 @@ std::string triple(const Entry& e, const Shot& shot) {
 std::string pairs(const Entry& e) {
     std::string html = referenceFigure(e);
     for (const Shot& shot : e.shots)
-        html += "<div class=\"pair\">" + figureHtml(shot.picture, e.title + ", " + shot.label, escapeHtml(shot.label)) +
+        html += pairHtml(2) + figureHtml(shot.picture, e.title + ", " + shot.label, escapeHtml(shot.label)) +
                 differenceFigure(e, shot) + "</div>\n";
     return html;
 }
@@ -132,13 +132,36 @@ std::string article(const Entry& e) {
     return html + "</article>\n";
 }
 
+/// What short names stand for: README.md's bibliography has the rest.
+std::string paperList() {
+    return "<p>The papers that sections follow, and other short names:</p>\n<ul>\n"
+           "<li>HSE: W. Heidrich, “Hardware Shading Effects”, chapter 3 of the SIGGRAPH course “Real-time "
+           "Shading”.</li>\n"
+           "<li>MPR: P. Diefenbach, N. Badler, “Multi-Pass Pipeline Rendering: Realism for Dynamic Environments”, I3D "
+           "1997.</li>\n"
+           "<li>PR94: P. Diefenbach, N. Badler, “Pipeline rendering: interactive refractions, reflections and "
+           "shadows”, Displays 15(3), 1994.</li>\n"
+           "<li>HEMI: J. Kautz, J. Lehtinen, T. Aila, “Hemispherical Rasterization for Self-Shadowing of Dynamic "
+           "Objects”, EGSR 2004.</li>\n"
+           "<li>HYBRID: T. Udeshi, C. Hansen, “Towards Interactive Photorealistic Rendering of Indoor Scenes: A Hybrid "
+           "Approach”, EGRW 1999.</li>\n"
+           "<li>BRDF: bidirectional reflectance distribution function. GGX: Trowbridge and Reitz's distribution of "
+           "microfacets (Walter 2007). MERL: a database of measured BRDFs (Matusik 2003). CC0: in the public "
+           "domain.</li>\n</ul>\n";
+}
+
 std::string introduction(const Gallery& gallery) {
     std::string html =
-        "<h1>nacre: gallery</h1>\n<p>Each material here is a reflectance that was turned into one to three small "
-        "textures (<em>factored</em>), which a shader looks up for each pixel and light. Beside every picture stand "
-        "its reference, ray traced with the unfactored reflectance, same lights and camera; the difference of the "
-        "two; and the cost of the lookup against that of evaluating the model in the same shader, measured in the "
-        "same run.</p>\n<p>All pictures of an entry have the reference's exposure. A difference is that of the values "
+        "<h1>nacre: gallery</h1>\n<p>Each picture here is what nacre draws in real time, beside its truth: a reference "
+        "of the same scene, lights and camera, traced by rays or summed without the shortcut that is shown; the "
+        "difference of the two; and what it costs. The first sections have materials whose reflectance was turned into "
+        "one to three small textures (<em>factored</em>), which a shader looks up for each pixel and light. The others "
+        "have surroundings as light, bumps, shadow maps, volumes, mirrors and glass, light between surfaces, scenes "
+        "that the pipeline and the processor draw together (<em>hybrid</em>), and moving meshes that shadow themselves "
+        "(<em>transfer</em>).</p>\n<p>The reference of a factored material is ray traced with the unfactored "
+        "reflectance, and the cost of the lookup stands against that of evaluating the model in the same shader, "
+        "measured in the same "
+        "run.</p>\n<p>All pictures of an entry have the reference's exposure. A difference is that of the values "
         "shown (sRGB, 0 to 1), the largest of the three channels, as a colour; the PSNR is of the same values; the "
         "relative error is √Σ(picture − reference)² ÷ √Σ reference² of linear radiance. Pixels at the outline are left "
         "out. The speed-up is the time of evaluating the model directly ÷ that of the lookups, both less the time "
@@ -152,16 +175,18 @@ std::string introduction(const Gallery& gallery) {
         "square "
         "of ln((factored + 0.001) ÷ (true + 0.001)) over directions up to 80°: the dark parts count as much as the "
         "bright.</li>\n<li>Lit sphere: PSNR of a sphere lit by each of six lamps in turn, factored against true.</li>\n"
-        "<li>HSE: W. Heidrich, “Hardware Shading Effects”, chapter 3 of the SIGGRAPH course “Real-time "
-        "Shading”, whose figures the first sections follow.</li>\n</ul>\n";
+        "</ul>\n" +
+        paperList();
     if (!gallery.exhibits.empty())
         html +=
             "<p>Under the environment maps the light is a whole surrounding, filtered beforehand by the surface's lobe "
             "and looked up once a pixel. There the reference sums the lobe over every texel of the surrounding for "
-            "each pixel, with exact Fresnel factors. Of bump maps it follows rays over the relief's own surface; the "
-            "lowest "
-            "PSNR there is that of plain bump mapping, without shadows or bounces, which stands beside for "
-            "comparison.</p>\n";
+            "each pixel, with exact Fresnel factors. Of bump maps it follows rays over the relief's own "
+            "surface.</p>\n<p>The summary's PSNR and frames of exhibits are nacre's own, at its defaults or better. "
+            "What is marked “for comparison” doesn't count: other methods, parts switched off, coarser settings, "
+            "truths "
+            "that leave something out. A – stands where there is no truth, or where no "
+            "whole frame is timed: charts, and shadow counts alone.</p>\n";
     html += fmt::format("<p class=\"soft\">nacre {}; {}; {}; made in {} s{}</p>\n", escapeHtml(gallery.version),
                         escapeHtml(gallery.renderer), escapeHtml(gallery.machine), formatNumber(gallery.seconds),
                         gallery.quick ? "; <strong>quick run: small pictures, few samples</strong>" : "");

@@ -19,11 +19,15 @@ std::string figureHtml(const Picture& picture, const std::string& alt, const std
                        dataUri(picture), below, caption);
 }
 
+std::string pairHtml(int figures) { return fmt::format("<div class=\"pair\" style=\"--figures: {}\">", figures); }
+
 std::string scaleBarHtml(double scale) {
     std::string ticks;
     for (const double share : {0.0, 0.25, 0.5, 0.75, 1.0})
         ticks += fmt::format("<span>{}</span>", formatNumber(share * scale, 2));
-    return "<div class=\"scale\"></div><div class=\"ticks\">" + ticks + "</div>";
+    return "<div class=\"scale\"></div><div class=\"ticks\">" + ticks + "</div>" +
+           fmt::format("<div class=\"unit\">of shown values, 0 to 1; the brightest colour is {}</div>",
+                       scale == 1 ? "all of it" : formatNumber(scale, 2) + " and more");
 }
 
 std::string psnrText(double psnr) { return psnr < 200 ? fmt::format("{:.1f} dB", psnr) : "identical"; }

@@ -8,6 +8,9 @@ namespace nacre {
 /// \param caption  HTML; \param below  HTML between picture and caption
 std::string figureHtml(const Picture& picture, const std::string& alt, const std::string& caption,
                        const std::string& below = {});
+/// Opens a column of `figures`, which stand level with those of the columns beside it.
+std::string pairHtml(int figures);
+/// A difference's colours and what their end stands for.
 std::string scaleBarHtml(double scale);
 std::string psnrText(double psnr);      ///< `45.2 dB`, or `identical`
 std::string percentText(double share);  ///< `0.310 %`

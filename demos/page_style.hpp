@@ -26,11 +26,14 @@ article { background: var(--card); border: 1px solid var(--line); border-radius:
 .shots { display: grid; gap: .8rem; grid-template-columns: repeat(auto-fit, minmax(min(15rem, 100%), 1fr));
   margin: .8rem 0; }
 figure { margin: 0; min-width: 0; }
-.pair { display: grid; gap: .8rem; align-content: start; min-width: 0; }
-.pair:only-child { grid-template-columns: repeat(auto-fit, minmax(min(15rem, 100%), 1fr)); }
+.pair { display: grid; align-content: start; min-width: 0; grid-row: span var(--figures);
+  grid-template-rows: subgrid; }
+.pair:only-child { grid-row: auto; grid-template-rows: none; gap: .8rem;
+  grid-template-columns: repeat(auto-fit, minmax(min(15rem, 100%), 1fr)); }
 figure img { display: block; width: 100%; height: auto; border-radius: 6px; background: #777; }
 figcaption { margin-top: .3rem; }
 .scale { height: .7rem; border-radius: 3px; border: 1px solid var(--line); margin-top: .35rem; }
+.unit { font-size: .78rem; color: var(--soft); }
 .ticks { display: flex; justify-content: space-between; font-size: .78rem; color: var(--soft);
   font-variant-numeric: tabular-nums; }
 table { border-collapse: collapse; font-size: .87rem; font-variant-numeric: tabular-nums; width: 100%; }

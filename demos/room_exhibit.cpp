@@ -60,12 +60,13 @@ Exhibit roomsExhibit(const Task& task) {
         const double seconds = secondsOf(renderer.report());
         options.shadows->method = choice.taken;
         Image drawn = halved(renderer.draw(kSupersample * size, kSupersample * size, options).blended);
+        const double milliseconds = 1000 * secondsOf(renderer.report());
         SceneTraceOptions tracing{.width = size, .height = size, .supersample = kSupersample};
         tracing.lightPoints = 16;
         tracing.progress = task.options.progress;
         builder.row(title);
         builder.compared(fmt::format("shadows by {}", nameOf(choice.taken)), std::move(drawn),
-                         traceComponents(*scene, scene->camera, truths, tracing, false).blended);
+                         traceComponents(*scene, scene->camera, truths, tracing, false).blended, milliseconds);
         const auto figure = [](double time, double psnr) { return fmt::format("{:.3f} s, {:.1f} dB", time, psnr); };
         e.table.rows.push_back({file, std::to_string(trianglesOf(*scene)), figure(choice.mapSeconds, choice.mapPsnr),
                                 figure(choice.volumeSeconds, choice.volumePsnr), nameOf(choice.taken),

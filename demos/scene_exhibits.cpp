@@ -178,7 +178,7 @@ Exhibit volume(const Task& task) {
     for (const VolumeMethod method : {VolumeMethod::Slices, VolumeMethod::March}) {
         const bool slices = method == VolumeMethod::Slices;
         builder.row(slices ? "Slices and an alpha test, as in the paper" : "Marched along each line of sight", !slices);
-        for (const double step : {2.0, 1.0, 0.5})
+        for (const double step : {2.0, 1.0, 0.5}) {
             builder.panel(
                 fmt::format("{:g} texels a step", step),
                 [&task, &gpu, &scan, &view, &brdf, method, step](const RenderTarget& target) {
@@ -186,6 +186,8 @@ Exhibit volume(const Task& task) {
                                  view, brdf);
                 },
                 truth);
+            if (step > 0.5) builder.forComparison();  // the default
+        }
     }
     Exhibit e;
     e.section = "Volumes (HSE figure 7)";

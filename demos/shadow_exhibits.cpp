@@ -216,7 +216,7 @@ Exhibit shadowStudyExhibit(const Task& task) {
     e.table.head = {"depth", "acne", "leaks", "at boundaries", "cost"};
     report(task.options.progress, task.id + ": misjudged pixels", 0);
     const std::vector<Method> drawn = drawings.methods();
-    builder.row("Misjudged by the map that the pass looks up, near and far fitted", false);
+    builder.row("Misjudged by the map that the pass looks up, near and far fitted");
     show({drawn[0], drawn[1]}, truth, white, builder, e.table);
     std::vector<Method> linear, zBuffer;
     for (const int bits : {8, 16, 32}) linear.push_back(codeMethod(study, truth, task.size(1024), {false, bits}));

@@ -67,7 +67,10 @@ Exhibit room(const Task& task) {
     const Image truth = traced(task, scene, size, size, kFull);
     Panels panels(task, scene);
     panels.builder.row(fmt::format("Against rays over up to {} mirrors and panes", kFull));
-    for (const int depth : {4, 2, 1}) panels.panel(fmt::format("depth {}", depth), deep(depth), truth);
+    for (const int depth : {4, 2, 1}) {
+        panels.panel(fmt::format("depth {}", depth), deep(depth), truth);
+        if (depth < SpecularOptions().depth) panels.builder.forComparison();
+    }
     panels.builder.row("Against rays over as many: what virtual viewpoints do wrong", false);
     for (const int depth : {4, 2, 1})
         panels.panel(fmt::format("depth {}", depth), deep(depth), traced(task, scene, size, size, depth));
@@ -84,7 +87,7 @@ Exhibit room(const Task& task) {
         "the middle of what is seen of it. The pane is two faces, in and out. The reference follows each ray by "
         "Snell's "
         "law. Where a path ends in a face, that is black: with depth 1 the pane is, since a way through it takes two. "
-        "In "
+        "Half of the mirror is black too: there it shows the open side of the box, towards the eye. In "
         "neither: light that the mirror and the glass send on.";
     e.scene = "A box of lambert walls, a ball, a ring, a mirror of 92 %, glass of index 1.5; a spot light.";
     e.commands = {"nacre render demos/scenes/mirrors.json -o mirrors.png --reference",
@@ -163,7 +166,9 @@ Exhibit plates(const Task& task) {
         "drawn "
         "last covers. One virtual eye is right for one incident angle: on the normal through the eye for all azimuths "
         "of it, "
-        "turned about the incident point for one ray alone. The table has what is left, against Snell's law: the worst "
+        "turned about the incident point for one ray alone. Here the "
+        "view vector meets the plate near its middle, so that the paper's angle does as well as ours. The table has "
+        "what is left, against Snell's law: the worst "
         "pixel, "
         "of 512 over 40 degrees, for points behind the face by a third of the eye's distance; index 1.5.";
     e.scene = "A floor with stripes, bars, a ball and a ring behind a face of 1.5 x 1.2.";
@@ -210,8 +215,7 @@ Exhibit frosted(const Task& task) {
             fmt::format("m = 0.12, {} {}", count, sampling == ShearSampling::Random ? "random" : "of low discrepancy"),
             frostedScene(task.options.sceneFolder, 0.12, 0), options);
     }
-    builder.row("Microfacets: each view turned as one facet turns the incident ray, against facets for each ray",
-                false);
+    builder.row("Microfacets: each view turned as one facet turns the incident ray, against facets for each ray");
     for (const double roughness : {0.1, 0.25}) {
         SceneDescription scene = readScene(task.options.sceneFolder / "plates.json");
         for (SceneMaterial& m : scene.materials)
@@ -266,12 +270,15 @@ Exhibit quality(const Task& task) {
     e.title = "Quality for time (MPR tables 2 and 3)";
     e.caption =
         "Passes are what a picture costs. Each level gives up what is seen least: first deep paths, then what glass "
-        "reflects, then a pane in the mirror. While the picture moves, the viewer takes the best level whose frames "
+        "reflects, then a pane in the mirror. Least gives up samples of frost and lamps and light by faces, which "
+        "aren't here: it is low. While the picture moves, the viewer takes the best level whose frames "
         "keep a time; at rest it refines, one level a picture. The paper's own bathroom went from 1081 passes (63.5 s, "
         "three specular surfaces at depth 2) to 41 (3.4 s, one at depth 1).";
     e.scene = "The box with a mirror and a pane; depth 8 at most.";
-    e.commands = {"nacre render demos/scenes/mirrors.json -o low.png --quality low --reference",
-                  "nacre view demos/scenes/mirrors.json --target-ms 50"};
+    e.commands = {
+        "nacre render demos/scenes/mirrors.json -o low.png --depth 8 --quality low --light-paths 0 --reference",
+        "nacre render demos/scenes/mirrors.json --depth 8 --quality low --light-paths 0 --size 400x400 --passes",
+        "nacre view demos/scenes/mirrors.json --target-ms 50"};
     e.table = qualityTable(scene, kSupersample * size);
     panels.builder.finish(e);
     return e;

@@ -195,7 +195,7 @@ Exhibit transferObjectsExhibit(const Task& task) {
     ExhibitTable table{{"lights", "error of figures", "error of the floor", "ms a frame"}, {}};
     std::vector<std::function<void()>> timed;
     for (const auto& [title, cells] : settings) {
-        builder.row(title, cells.has_value());
+        builder.row(title, cells && cells->floor.x > 1);
         builder.panel(
             "", [&group, &l, c = cells](const RenderTarget& target) { group.draw(target, group.radiance(l, c)); },
             traced);

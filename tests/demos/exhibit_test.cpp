@@ -55,9 +55,27 @@ TEST(Exhibit, PageAndJsonHoldEveryNumber) {
     compared.rows.push_back(compared.rows[1]);
     compared.rows.back().panels[0].comparison->psnr = 10;
     compared.rows.back().ours = false;
+    compared.rows.back().panels[0].milliseconds = 99;
     EXPECT_EQ(lowestPsnr(compared), 43.25);
+    EXPECT_EQ(longestFrame(compared), 2.5);
+    EXPECT_THAT(exhibitHtml(compared), HasSubstr("second; <span class=\"soft\">for comparison</span></h4>"));
+    compared.rows.back().ours = true;
+    EXPECT_EQ(lowestPsnr(compared), 10);
+    compared.rows.back().panels[0].ours = false;
+    EXPECT_EQ(lowestPsnr(compared), 43.25);
+    EXPECT_EQ(longestFrame(compared), 2.5);
+    EXPECT_THAT(exhibitHtml(compared), HasSubstr("n = 1.5; 99.0 ms; for comparison"));
+    EXPECT_FALSE(exhibitJson(compared)["rows"][2]["panels"][0]["ours"]);
     EXPECT_EQ(longestFrame(someExhibit()), 2.5);
     EXPECT_EQ(picturesOf(someExhibit()).size(), 7u);
+}
+
+TEST(Exhibit, ColumnsSayHowManyFiguresStandLevelAndBarsWhatTheyEndAt) {
+    const std::string html = exhibitHtml(someExhibit());
+    for (const char* text :
+         {"<div class=\"pair\" style=\"--figures: 1\">", "<div class=\"pair\" style=\"--figures: 3\">",
+          "of shown values, 0 to 1; the brightest colour is 0.020 and more"})
+        EXPECT_THAT(html, HasSubstr(text));
 }
 
 TEST(Exhibit, ATableIsOnThePageAndInTheJson) {

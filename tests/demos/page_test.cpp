@@ -59,6 +59,15 @@ TEST(Page, HoldsEveryNumberOfAnEntry) {
     EXPECT_THAT(html, HasSubstr(".scale { background: linear-gradient(to right, rgb("));
 }
 
+TEST(Page, IntroducesEveryShortName) {
+    const std::string html = galleryPage(makeGallery());
+    for (const char* text :
+         {"<li>HSE: ", "<li>MPR: ", "<li>PR94: ", "<li>HEMI: ", "<li>HYBRID: ", "BRDF: ", "GGX: ", "MERL: ", "CC0: "})
+        EXPECT_THAT(html, HasSubstr(text));
+    for (const char* text : {"mirrors and glass", "<em>hybrid</em>", "<em>transfer</em>"})
+        EXPECT_THAT(html, HasSubstr(text));
+}
+
 TEST(Page, IsSelfContainedAndEscaped) {
     const std::string html = galleryPage(makeGallery());
     const std::regex reference("(?:src|href)=\"([^\"]*)\"");
