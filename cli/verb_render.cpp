@@ -249,7 +249,8 @@ constexpr const char* kDetails =
     "With --pipes or --mpi several processes draw them together: lamps' points (with --shadows volumes) and virtual\n"
     "lights; sampled shadows are the first's alone. One that dies or is late is left out: if the last frame lacks\n"
     "its light, the exit code is 1.\n"
-    "  mpirun -n 2 nacre render office.json -o office.png --indirect virtual-lights --shadows volumes --mpi\n"
+    "  mpirun -n 2 nacre render office.json -o o.png --indirect virtual-lights --specular traced --shadows volumes "
+    "--mpi\n"
     "A file of nacre transfer holds its mesh: its frames are drawn by their vertices' radiance (albedo 1, back faces\n"
     "black) in the light of --env, turned and blended, with the first frame's white. With --reference the same\n"
     "vertices' transfer comes from rays.\n"
@@ -281,7 +282,8 @@ std::vector<Option> sceneOptions(const std::shared_ptr<Settings>& s) {
         {"--shadows", "METHOD",
          "Of lights that have shadows: maps (default; areas count as their middle) or volumes, exact to the pixel; or "
          "of\n"
-         "each pixel before it is lit, smoothed: sampled-maps, sampled-volumes, sampled (the faster one that is right)",
+         "each pixel before it is lit, smoothed, the light itself from an area's middle: sampled-maps, "
+         "sampled-volumes, sampled (the faster one that is right)",
          only(s->sceneFlag, "--shadows",
               [s](const std::string& text) {
                   s->hybrid.shadows = sampledShadowsOf(text);

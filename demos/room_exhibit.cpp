@@ -78,8 +78,9 @@ Exhibit roomsExhibit(const Task& task) {
         "Each lamp has {} points. Their shadows are found for every pixel before it is lit, by counted volumes or by a "
         "shadow map a point, and the steps between levels are smoothed where no edge is (HYBRID section 4.1). Both are "
         "timed once and compared with rays to 256 points of the lamp from 4096 pixels; of those within 35 dB the "
-        "faster "
-        "is taken. The paper drew its office, 4083 polygons, 4 times a second on eight graphics pipes; the scanned "
+        "faster is taken. That is of shadows alone: the light of a lamp with an area comes from its middle here, which "
+        "is the bright ring in the classroom's difference, on the ceiling about its large lamps. The paper drew its "
+        "office, 4083 polygons, 4 times a second on eight graphics pipes; the scanned "
         "office has about as many.",
         kPoints);
     e.scene = "demos/scenes/office.json, living-room.json (scans that demos/fetch.sh brings), classroom.json.";
