@@ -61,6 +61,7 @@ public:
     void setLight(std::size_t light, const SceneLight& value) { edit(scene_.lights.at(light), value); }
     void setMaterial(std::size_t material, const SceneMaterial& value) { edit(scene_.materials.at(material), value); }
     void setNodeMaterial(std::size_t node, int material) { edit(scene_.nodes.at(node).material, material); }
+    void setNodeTranslation(std::size_t node, const Vec3& value) { edit(scene_.nodes.at(node).translation, value); }
     void setSky(const SceneSky& value) { edit(scene_.sky, value); }
     void setScene(SceneDescription&& next);
     void setIndirectLight(const std::vector<std::vector<glm::vec3>>& radiance);

@@ -336,6 +336,9 @@ void SceneRenderer::setMaterial(std::size_t material, const SceneMaterial& value
     state_->objects.setMaterial(material, value);
 }
 void SceneRenderer::setNodeMaterial(std::size_t node, int material) { state_->objects.setNodeMaterial(node, material); }
+void SceneRenderer::setNodeTranslation(std::size_t node, const Vec3& value) {
+    state_->objects.setNodeTranslation(node, value);
+}
 void SceneRenderer::setSky(const SceneSky& value) { state_->objects.setSky(value); }
 void SceneRenderer::setScene(SceneDescription scene) {
     state_->objects.setScene(std::move(scene));

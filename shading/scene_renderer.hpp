@@ -52,6 +52,7 @@ public:
     void setLight(std::size_t light, const SceneLight& value);
     void setMaterial(std::size_t material, const SceneMaterial& value);
     void setNodeMaterial(std::size_t node, int material);
+    void setNodeTranslation(std::size_t node, const Vec3& value);  ///< unless a track of the animation moves it
     void setSky(const SceneSky& value);
     /// Another scene, or the same one read again: assets and meshes that didn't change stay loaded.
     void setScene(SceneDescription scene);

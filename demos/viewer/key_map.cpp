@@ -34,6 +34,7 @@ constexpr KeyBinding kKeys[] = {
 constexpr MouseBinding kMouse[] = {
     {"left drag", "orbit"},
     {"middle drag, or Shift + left drag", "pan"},
+    {"right drag on a mesh", "move it across the view"},
     {"wheel", "zoom"},
     {"click", "choose a mesh"},
     {"drag a light's mark, or Ctrl + drag", "move or turn the chosen light"},

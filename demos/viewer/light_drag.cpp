@@ -3,6 +3,7 @@
 #include <glm/gtc/matrix_transform.hpp>
 
 #include "core/error.hpp"
+#include "core/shadow_view.hpp"
 #include "demos/viewer/orbit.hpp"
 
 namespace nacre {
@@ -12,6 +13,12 @@ namespace {
 double depthOf(const Vec3& point, const Camera& camera) {
     const double depth = -(camera.view() * Vec4(point, 1)).z;
     return depth > camera.near ? depth : glm::length(camera.target - camera.eye);
+}
+
+/// In the world, of what stands there.
+Vec3 acrossView(const Vec3& point, const Camera& camera, Vec2 pixels, int height) {
+    const double size = pixelSize(camera, depthOf(point, camera), height);
+    return glm::transpose(Mat3(camera.view())) * Vec3(pixels.x * size, -pixels.y * size, 0);
 }
 
 /// What points at the viewer goes where the mouse goes.
@@ -32,9 +39,21 @@ Light dragged(const Light& light, const Camera& camera, Vec2 pixels, int height)
         out.position = turned(light.position, camera, pixels, height);
         return out;
     }
-    const double size = pixelSize(camera, depthOf(light.position, camera), height);
-    out.position += glm::transpose(Mat3(camera.view())) * Vec3(pixels.x * size, -pixels.y * size, 0);
+    out.position += acrossView(light.position, camera, pixels, height);
     return out;
+}
+
+Vec3 draggedNode(const SceneDescription& scene, const std::vector<glm::dmat4>& nodes, std::size_t node,
+                 const Camera& camera, Vec2 pixels, int height) {
+    const SceneNode& moved = scene.nodes.at(node);
+    Vec3 middle(0);
+    if (moved.mesh >= 0) {
+        const Bounds box = boundsOf(scene.meshes[static_cast<std::size_t>(moved.mesh)].mesh);
+        if (!box.empty()) middle = 0.5 * (box.low + box.high);
+    }
+    const Vec3 by = acrossView(Vec3(nodes.at(node) * Vec4(middle, 1)), camera, pixels, height);
+    const Mat3 parent = moved.parent < 0 ? Mat3(1) : Mat3(nodes.at(static_cast<std::size_t>(moved.parent)));
+    return moved.translation + glm::inverse(parent) * by;
 }
 
 Light pulled(const Light& light, const Camera& camera, double steps) {

@@ -1,4 +1,4 @@
-// Lights under the mouse. Pixels as in orbit.hpp; lights are in the world.
+// Lights and objects under the mouse. Pixels as in orbit.hpp; lights are in the world.
 #pragma once
 
 #include "core/scene_description.hpp"
@@ -14,6 +14,11 @@ Light pulled(const Light& light, const Camera& camera, double steps);
 
 /// A spot shines elsewhere, turning with the mouse as a directional light does; others stay.
 Light aimed(const Light& light, const Camera& camera, Vec2 pixels, int height);
+
+/// The translation with which a node's mesh moves across the view, at the depth of its middle.
+/// \param nodes  nodeTransforms of the scene at this moment
+Vec3 draggedNode(const SceneDescription& scene, const std::vector<glm::dmat4>& nodes, std::size_t node,
+                 const Camera& camera, Vec2 pixels, int height);
 
 /// `light` as it must stand in the scene to be `world` there: the inverse of lightsInWorld for one light.
 /// \param nodes  nodeTransforms of the scene at this moment

@@ -245,6 +245,14 @@ bool ViewerSession::replaceAsset(std::size_t asset, const fs::path& file) {
     });
 }
 
+bool ViewerSession::setNodeTranslation(std::size_t node, const Vec3& value) {
+    touch();
+    return attempt("object", [&] {
+        renderer_->setNodeTranslation(node, value);
+        bounds_ = boundsOf(scene());
+    });
+}
+
 bool ViewerSession::setSky(const SceneSky& value) {
     touch();
     ++materials_;

@@ -99,6 +99,7 @@ public:
     /// Scale and light of a relief that it has stay. An empty path takes the relief away.
     bool setRelief(std::size_t material, const std::filesystem::path& file);
     bool replaceAsset(std::size_t asset, const std::filesystem::path& file);
+    bool setNodeTranslation(std::size_t node, const Vec3& value);
     bool setSky(const SceneSky& value);
     /// Another scene file.
     bool open(const std::filesystem::path& file);

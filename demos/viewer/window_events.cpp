@@ -69,6 +69,7 @@ void WindowEvents::press(int button, bool down, int mods) {
     moved_ = false;
     const bool control = (mods & GLFW_MOD_CONTROL) != 0, shift = (mods & GLFW_MOD_SHIFT) != 0;
     if (button == GLFW_MOUSE_BUTTON_MIDDLE) drag_ = Drag::Pan;
+    if (button == GLFW_MOUSE_BUTTON_RIGHT && choose()) drag_ = Drag::Object;
     if (button != GLFW_MOUSE_BUTTON_LEFT) return;
     drag_ = control && shift ? Drag::Aim : control ? Drag::Light : shift ? Drag::Pan : Drag::Orbit;
     if (drag_ != Drag::Orbit) return;
@@ -79,10 +80,20 @@ void WindowEvents::press(int button, bool down, int mods) {
         }
 }
 
-void WindowEvents::choose() {
+bool WindowEvents::choose() {
     const int node = nodeAt(session_.scene(), nodeTransforms(session_.scene(), session_.time), session_.camera,
                             mouse_ - pictureOrigin(state_), {session_.width(), session_.height()});
     if (node >= 0) state_.node = node;
+    return node >= 0;
+}
+
+/// The chosen one.
+void WindowEvents::moveObject(Vec2 by) {
+    const auto node = static_cast<std::size_t>(state_.node);
+    const SceneDescription& scene = session_.scene();
+    if (node >= scene.nodes.size()) return;
+    session_.setNodeTranslation(
+        node, draggedNode(scene, nodeTransforms(scene, session_.time), node, session_.camera, by, session_.height()));
 }
 
 void WindowEvents::moveMouse(Vec2 to) {
@@ -97,6 +108,7 @@ void WindowEvents::moveMouse(Vec2 to) {
     const int height = session_.height();
     if (drag_ == Drag::Orbit) session_.move(orbited(session_.camera, by, height));
     if (drag_ == Drag::Pan) session_.move(panned(session_.camera, by, height));
+    if (drag_ == Drag::Object) moveObject(by);
     if (drag_ == Drag::Light)
         changeLight([&](const Light& light) { return dragged(light, session_.camera, by, height); });
     if (drag_ == Drag::Aim) changeLight([&](const Light& light) { return aimed(light, session_.camera, by, height); });

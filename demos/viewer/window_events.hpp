@@ -21,12 +21,13 @@ public:
     bool take() { return std::exchange(any_, false); }
 
 private:
-    enum class Drag { None, Orbit, Pan, Light, Aim };
+    enum class Drag { None, Orbit, Pan, Light, Aim, Object };
 
     static WindowEvents& of(GLFWwindow* window);
     bool inPictureArea(Vec2 at) const;
     void press(int button, bool down, int mods);
-    void choose();
+    bool choose();  ///< what is under the mouse, if anything
+    void moveObject(Vec2 by);
     void moveMouse(Vec2 to);
     void scroll(double steps);
     void changeLight(const std::function<Light(const Light&)>& change);

@@ -32,6 +32,32 @@ TEST(LightDrag, APointStaysUnderTheMouse) {
     EXPECT_NEAR(after.z, before.z, kRounding);
 }
 
+TEST(LightDrag, AnObjectStaysUnderTheMouseInAMovedParentToo) {
+    Camera camera;
+    camera.eye = {2, 1, 3};
+    SceneDescription scene;
+    SceneMesh mesh;
+    mesh.mesh.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0.5f}};
+    mesh.mesh.triangles = {{0, 1, 2}};
+    scene.meshes.push_back(mesh);
+    SceneNode parent, child;
+    parent.scale = {2, 3, 1};
+    parent.rotation = glm::angleAxis(0.7, glm::normalize(Vec3(1, 2, 0)));
+    child.parent = 0;
+    child.mesh = 0;
+    scene.nodes = {parent, child};
+    const Vec2 size(200, 100), by(13, -21);
+    const auto middle = [&] {
+        return inPicture(camera, Vec3(nodeTransforms(scene, 0)[1] * Vec4(0.5, 0.5, 0.25, 1)), size);
+    };
+    const Vec3 before = middle();
+    scene.nodes[1].translation = draggedNode(scene, nodeTransforms(scene, 0), 1, camera, by, 100);
+    const Vec3 after = middle();
+    EXPECT_NEAR(after.x - before.x, by.x, 1e-9);
+    EXPECT_NEAR(after.y - before.y, by.y, 1e-9);
+    EXPECT_NEAR(after.z, before.z, kRounding);
+}
+
 TEST(LightDrag, ALightBehindTheEyeMovesToo) {
     const Camera camera;
     const Light light{false, {0, 0, 10}};

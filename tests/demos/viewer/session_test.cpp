@@ -240,6 +240,19 @@ TEST_F(Session, LevelsOfShadowsFollowLightsAndScenes) {
     moved.light.position = {9, 3, 0};
     ASSERT_TRUE(session.setLight(0, moved));
     EXPECT_NE(dark(true), shadowed);
+    // An object moved is the picture of a scene that has it there, its shadow too.
+    session.switches.shadows = true;
+    ASSERT_TRUE(session.setNodeTranslation(0, {0, -1.5, 0}));
+    const std::vector<float> after = pixels(session);
+    write([&] {
+        std::string other = scene;
+        other.replace(other.find("[0, -2, 0]"), 10, "[0, -1.5, 0]");
+        other.replace(other.find("[0, 3, 0]"), 9, "[9, 3, 0]");
+        return other;
+    }());
+    session.reload();
+    EXPECT_EQ(session.scene().nodes[0].translation.y, -1.5);
+    EXPECT_EQ(pixels(session), after);
     write(kScene);  // a directional light without shadow, and other meshes
     session.reload();
     EXPECT_THAT(session.problems(), IsEmpty());
