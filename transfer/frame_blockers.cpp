@@ -28,7 +28,7 @@ MovingLevels::MovingLevels(BlockerLevels levels, std::size_t vertices) : levels_
         const std::vector<glm::uvec3>& triangles = levels_.levels[l].triangles;
         corners_.push_back(cornersOfVertices(triangles, vertices));
         firstRow_.push_back(static_cast<std::uint32_t>(rowCount_));
-        firstPushed_.push_back(static_cast<std::uint32_t>(pushedCount_));
+        firstPushed_.push_back(static_cast<std::uint32_t>(vertices + pushedCount_));
         used_.emplace_back();
         numbered_.emplace_back();
         rowCount_ += triangles.size();
@@ -38,13 +38,12 @@ MovingLevels::MovingLevels(BlockerLevels levels, std::size_t vertices) : levels_
         for (const glm::uvec3& t : triangles)
             for (int c = 0; c < 3; ++c) {
                 if (numberOf[t[c]] != kNone) continue;
-                numberOf[t[c]] = static_cast<std::uint32_t>(pushedCount_++);
+                numberOf[t[c]] = static_cast<std::uint32_t>(vertices + pushedCount_++);
                 used_[l].push_back(t[c]);
             }
         for (const glm::uvec3& t : triangles) numbered_[l].emplace_back(numberOf[t.x], numberOf[t.y], numberOf[t.z]);
         cut(vertexParts_, l, used_[l].size());
     }
-    sides_.assign(rowCount_, kFrontSide);
     for (const BlockerLevels::Patch& patch : levels_.patches) {
         std::vector<std::uint32_t>& all = patchCorners_.emplace_back();
         float push = 0;
@@ -104,32 +103,31 @@ void MovingLevels::placePatch(std::span<const glm::vec3> positions, std::size_t 
     }
 }
 
-void MovingLevels::setSides(float mesh, float coarser, std::span<const std::uint8_t> sheets) {
-    sides_.clear();
-    for (std::size_t l = 0; l < levelCount(); ++l)
-        for (const glm::uvec3& t : levels_.levels[l].triangles)
-            sides_.push_back(sheets[t.x] ? kAnySide : l == 0 ? mesh : coarser);
+std::vector<glm::vec3> MovingLevels::unpushed(std::span<const glm::vec3> positions) const {
+    std::vector<glm::vec3> out(positions.begin(), positions.end());
+    for (const std::vector<std::uint32_t>& used : used_)
+        for (const std::uint32_t v : used) out.push_back(positions[v]);
+    return out;
 }
 
 void MovingLevels::place(std::span<const glm::vec3> positions, unsigned threads, FrameBlockers& out) const {
+    out.points.resize(positions.size() + pushedCount_);
+    std::copy(positions.begin(), positions.end(), out.points.begin());
+    if (levelCount() == 1) return;
     out.rows.resize(rowCount_);
-    out.pushed.resize(pushedCount_);
     parallelFor(vertexParts_.size(), threads, [&](std::size_t i) {
         const auto& [l, first, end] = vertexParts_[i];
         const BlockerLevels::Level& level = levels_.levels[l];
         for (std::size_t k = first; k < end; ++k) {
             const std::uint32_t v = used_[l][k];
-            out.pushed[firstPushed_[l] + k] = positions[v] + level.push[v] * vertexNormal(corners_[l], v, positions);
+            out.points[firstPushed_[l] + k] = positions[v] + level.push[v] * vertexNormal(corners_[l], v, positions);
         }
     });
     parallelFor(rowParts_.size(), threads, [&](std::size_t i) {
         const auto& [l, first, end] = rowParts_[i];
-        const std::vector<glm::uvec3>& triangles = l == 0 ? levels_.levels[0].triangles : numbered_[l];
-        const std::span<const glm::vec3> at = l == 0 ? positions : out.pushed;
         for (std::size_t k = first; k < end; ++k) {
-            BlockerRow& row = out.rows[firstRow_[l] + k];
-            row = blockerRow(at[triangles[k].x], at[triangles[k].y], at[triangles[k].z]);
-            row.sides = sides_[firstRow_[l] + k];
+            const glm::uvec3& t = triangles(l)[k];
+            out.rows[firstRow_[l] + k] = blockerRow(out.points[t.x], out.points[t.y], out.points[t.z]);
         }
     });
     out.patches.resize(patches().size(), levelCount());
@@ -140,7 +138,8 @@ void MovingLevels::place(std::span<const glm::vec3> positions, unsigned threads,
 }
 
 std::size_t FrameBlockers::bytes() const {
-    std::size_t sum = bytesOf(rows) + bytesOf(pushed) + bytesOf(patches.radius) + bytesOf(patches.off);
+    std::size_t sum =
+        silhouettes.bytes() + bytesOf(rows) + bytesOf(points) + bytesOf(patches.radius) + bytesOf(patches.off);
     for (const std::vector<float>& column : patches.centre) sum += bytesOf(column);
     for (const std::vector<float>& column : patches.corners) sum += bytesOf(column);
     return sum;
@@ -148,8 +147,8 @@ std::size_t FrameBlockers::bytes() const {
 
 std::size_t MovingLevels::bytes() const {
     std::size_t sum = bytesOf(used_) + bytesOf(numbered_) + bytesOf(firstRow_) + bytesOf(firstPushed_) +
-                      bytesOf(vertexParts_) + bytesOf(rowParts_) + bytesOf(patchCorners_) + bytesOf(sides_) +
-                      bytesOf(patchPush_) + bytesOf(joined_) + bytesOf(levels_.levels) + bytesOf(levels_.patches);
+                      bytesOf(vertexParts_) + bytesOf(rowParts_) + bytesOf(patchCorners_) + bytesOf(patchPush_) +
+                      bytesOf(joined_) + bytesOf(levels_.levels) + bytesOf(levels_.patches);
     for (const CornersOfVertices& corners : corners_) sum += corners.bytes();
     for (const BlockerLevels::Level& level : levels_.levels)
         sum += bytesOf(level.triangles) + bytesOf(level.push) + bytesOf(level.triangleOf) + bytesOf(level.restError);

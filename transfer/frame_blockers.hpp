@@ -3,13 +3,15 @@
 
 #include "transfer/blocker_kernel.hpp"
 #include "transfer/blocker_levels.hpp"
+#include "transfer/silhouette_blockers.hpp"
 
 namespace nacre {
 
 struct FrameBlockers {
-    std::vector<BlockerRow> rows;  ///< level after level
+    SilhouetteMesh::Frame silhouettes;
     PatchColumns patches;
-    std::vector<glm::vec3> pushed;  ///< inside: the coarser levels' vertices
+    std::vector<glm::vec3> points;  ///< the mesh's vertices, then the coarser levels'
+    std::vector<BlockerRow> rows;   ///< level after level, where there are some
     std::size_t bytes() const;
 };
 
@@ -23,9 +25,13 @@ public:
     /// \param positions  of the mesh, with an extent of 1
     void place(std::span<const glm::vec3> positions, unsigned threads, FrameBlockers& out) const;
 
-    /// Which sides block: of the mesh's own triangles, and of coarser ones. \param sheets  [vertex] whether its
-    /// connected part blocks by any side
-    void setSides(float mesh, float coarser, std::span<const std::uint8_t> sheets);
+    /// Of a level, by the numbers of points.
+    const std::vector<glm::uvec3>& triangles(std::size_t level) const {
+        return level == 0 ? levels_.levels[0].triangles : numbered_[level];
+    }
+    const std::vector<glm::uvec3>& vertexTriangles(std::size_t level) const { return levels_.levels[level].triangles; }
+    /// Positions of the mesh as the points of all levels, without the coarser ones' push.
+    std::vector<glm::vec3> unpushed(std::span<const glm::vec3> positions) const;
 
     const std::vector<BlockerLevels::Patch>& patches() const { return levels_.patches; }
     std::size_t levelCount() const { return levels_.levels.size(); }
@@ -33,8 +39,6 @@ public:
     std::uint32_t coarsestOf(std::uint32_t vertex) const { return levels_.levels.back().triangleOf[vertex]; }
     /// The patch and those that have some triangle of some level together with it, or one that stands for both.
     const std::vector<std::uint32_t>& joined(std::uint32_t patch) const { return joined_[patch]; }
-    std::uint32_t firstRow(std::size_t level) const { return firstRow_[level]; }
-    std::size_t rowCount() const { return rowCount_; }
     std::size_t bytes() const;
 
 private:
@@ -46,11 +50,10 @@ private:
     BlockerLevels levels_;
     std::vector<CornersOfVertices> corners_;         ///< [level]
     std::vector<std::vector<std::uint32_t>> used_;   ///< [level ≥ 1] its vertices
-    std::vector<std::vector<glm::uvec3>> numbered_;  ///< [level ≥ 1] its triangles by numbers in FrameBlockers::pushed
+    std::vector<std::vector<glm::uvec3>> numbered_;  ///< [level ≥ 1] its triangles by numbers in FrameBlockers::points
     std::vector<std::uint32_t> firstRow_, firstPushed_;     ///< [level]
     std::vector<Part> vertexParts_, rowParts_;              ///< what a thread does at a time
     std::vector<std::vector<std::uint32_t>> patchCorners_;  ///< [patch] vertices of all its triangles
-    std::vector<float> sides_;                              ///< [row]
     std::vector<float> patchPush_;                          ///< [patch] the longest push of one of them
     std::vector<std::vector<std::uint32_t>> joined_;
     std::size_t rowCount_ = 0, pushedCount_ = 0;

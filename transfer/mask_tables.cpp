@@ -54,6 +54,7 @@ std::shared_ptr<const MaskRows> maskRows(int size) {
         rows->cosPhi[r] = static_cast<float>(std::cos(phi));
         rows->sinPhi[r] = static_cast<float>(std::sin(phi));
         // Bit-reversed order: rows side by side, and any few rows, have offsets that spread.
+        if (r < size / 8) rows->tangents[r] = static_cast<float>(std::tan(phi));
         rows->dither[r] = static_cast<float>(radicalInverse(static_cast<std::uint64_t>(r), 2) + 0.5 / size);
     }
     rows->windows.resize(static_cast<std::size_t>(size));

@@ -22,6 +22,7 @@ struct MaskRows {
     alignas(64) float cosPhi[kMaxMaskSize];
     alignas(64) float sinPhi[kMaxMaskSize];
     alignas(64) float dither[kMaxMaskSize];
+    float tangents[kMaxMaskSize / 8];  ///< of the first eighth's azimuths
     /// Sixteen rows from row w on, each in the lane that its row has in its block of sixteen; `inBlock[w][b]` has ones
     /// in the lanes whose row lies in block b.
     struct Window {

@@ -5,12 +5,12 @@
 #include <cmath>
 #include <limits>
 #include <mutex>
-#include <numeric>
 #include <utility>
 
 #include "core/error.hpp"
 #include "core/parallel.hpp"
 #include "transfer/frame_blockers.hpp"
+#include "transfer/silhouette_blockers.hpp"
 #include "transfer/thread_seconds.hpp"
 
 namespace nacre {
@@ -27,13 +27,8 @@ struct GroupResult {
 /// What a thread keeps from group to group.
 struct Scratch {
     std::vector<std::uint8_t> levels;
-    std::vector<std::uint32_t> seen;  ///< [row] the last list that it is in
-    std::uint32_t lists = 0;
-    std::vector<std::uint32_t> candidates;
-    ListedBlockers listed;
-    std::vector<std::uint32_t> indices;
-    std::vector<std::size_t> counts;
-    std::vector<BlockerRow> rows;  ///< the listed, then a vertex's skirts
+    SilhouetteMesh::Seen seen;
+    std::vector<std::int8_t> layers;
     std::vector<std::uint32_t> masks;
     std::vector<float> local, world, sums;
     std::vector<Receiver> receivers;
@@ -69,12 +64,14 @@ struct SelfTransfer::State {
     MovingLevels levels;
     BlockingParts parts;
     std::vector<std::vector<std::uint32_t>> groups;
-    std::vector<std::vector<std::uint32_t>> near;        ///< [group] triangles of the mesh within the rings
-    std::vector<std::vector<std::uint8_t>> nearPatches;  ///< [group][patch] of sheets, whose levels would lie over it
-    std::vector<std::uint8_t> groupInside;               ///< [group] whether its vertices see backs of shells
-    std::vector<float> angles;                           ///< [group] lodAngle, less where little light gets to
-    MaskKernel kernel;
+    std::vector<std::vector<SilhouetteMesh::Part>> near;  ///< [group] triangles of the mesh within the rings
+    std::vector<std::vector<std::uint8_t>> nearPatches;   ///< [group][patch] of sheets, whose levels would lie over it
+    std::vector<float> angles;                            ///< [group] lodAngle, less where little light gets to
+    SilhouetteMesh silhouettes;
+    std::vector<std::vector<std::vector<SilhouetteMesh::Part>>> patchParts;  ///< [patch][level]
+    SilhouetteKernel kernel;
     BlockerKernel blockerKernels;
+    MaskKernel maskKernels;
     std::shared_ptr<const MaskRows> rows;
     std::shared_ptr<const MaskIntegrals> integrals;
     HarmonicRotation rotation;
@@ -87,11 +84,12 @@ struct SelfTransfer::State {
     std::unique_ptr<FrameBlockers> takeSpare();
     void keepSpare(std::unique_ptr<FrameBlockers> blockers);
     void makeGroups(std::span<const glm::vec3> rest, std::span<const std::uint8_t> dark);
+    void makeSilhouettes(std::span<const glm::vec3> rest);
     std::size_t listBlockers(const FrameBlockers& blockers, const GroupBounds& bounds, std::size_t group,
                              const BlockerSets& sets, Scratch& scratch) const;
-    std::size_t setWords() const { return (levels.rowCount() + 63) / 64; }
-    void addSkirts(std::uint32_t vertex, const Receiver& receiver, std::span<const glm::vec3> positions,
-                   Scratch& scratch) const;
+    std::size_t setWords() const { return (silhouettes.clusterCount() + 63) / 64; }
+    std::size_t draw(std::uint32_t vertex, std::size_t lane, const SilhouetteMesh::Frame& frame,
+                     Scratch& scratch) const;
     GroupResult computeGroup(std::size_t group, std::span<const std::uint32_t> vertices, const FrameBlockers& blockers,
                              std::span<const glm::vec3> positions, const MaskUse& use, const BlockerSets& sets,
                              TransferFrame& frame) const;
@@ -103,18 +101,35 @@ SelfTransfer::State::State(WeldedMesh m, std::span<const glm::vec3> rest, const 
       corners(cornersOfVertices(mesh.triangles, mesh.vertexCount())),
       levels(makeBlockerLevels(mesh, rest, {o.coarse}), mesh.vertexCount()),
       parts(blockingParts(mesh, rest, o.sides)),
-      kernel(maskKernel(o.mask, o.vectors)),
+      kernel(silhouetteKernel(o.mask, o.vectors)),
       blockerKernels(blockerKernel(o.vectors)),
+      maskKernels(maskKernel(o.mask, o.vectors)),
       rows(maskRows(o.mask)),
       integrals(maskIntegrals(o.mask, o.order)),
       rotation(o.order),
       open(openTransfer(o.order)) {
     for (std::size_t v = 0; v < mesh.vertexCount(); ++v)
         mostCorners = std::max<std::size_t>(mostCorners, corners.first[v + 1] - corners.first[v]);
-    const bool inner = parts.hasShells || parts.sides == BlockingSides::Fine;
-    levels.setSides(inner ? kInnerSide : kFrontSide, kFrontSide, parts.sheets);
     options.sides = parts.sides;
+    makeSilhouettes(rest);
     makeGroups(rest, {});
+}
+
+void SelfTransfer::State::makeSilhouettes(std::span<const glm::vec3> rest) {
+    const BackSides inner = parts.hasShells || parts.sides == BlockingSides::Fine ? BackSides::Inside : BackSides::None;
+    std::vector<std::vector<glm::uvec3>> triangles;
+    std::vector<std::vector<BackSides>> backs(levels.levelCount());
+    for (std::size_t l = 0; l < levels.levelCount(); ++l) {
+        triangles.push_back(levels.triangles(l));
+        for (const glm::uvec3& t : levels.vertexTriangles(l))
+            backs[l].push_back(parts.sheets[t.x] ? BackSides::All : l == 0 ? inner : BackSides::None);
+    }
+    silhouettes = SilhouetteMesh(triangles, levels.unpushed(rest), backs);
+    for (const BlockerLevels::Patch& patch : levels.patches()) {
+        patchParts.emplace_back();
+        for (std::size_t l = 0; l < levels.levelCount(); ++l)
+            patchParts.back().push_back(silhouettes.partsOf(l, patch.triangles[l]));
+    }
 }
 
 /// Vertices that need more blockers than others, dark ones and those that see backs, are in groups of their own.
@@ -125,7 +140,6 @@ void SelfTransfer::State::makeGroups(std::span<const glm::vec3> rest, std::span<
     const std::vector<glm::vec3> normals = vertexNormals(mesh.triangles, corners, rest);
     groups.clear();
     angles.clear();
-    groupInside.clear();
     for (int kind = 0; kind < 6; ++kind) {  // dark or not, times two: inside or not
         std::vector<glm::vec3> ofKind = normals;
         for (std::size_t v = 0; v < ofKind.size(); ++v)
@@ -133,7 +147,6 @@ void SelfTransfer::State::makeGroups(std::span<const glm::vec3> rest, std::span<
         for (std::vector<std::uint32_t>& group : groupReceivers(rest, ofKind, kGroup)) {
             groups.push_back(std::move(group));
             angles.push_back(static_cast<float>(options.lodAngle) * kAngles[kind % 3]);
-            groupInside.push_back(kind >= 3 ? 1 : 0);
         }
     }
     findNear();
@@ -142,25 +155,26 @@ void SelfTransfer::State::makeGroups(std::span<const glm::vec3> rest, std::span<
 /// The triangles of all vertices within the rings, and the patches that a triangle of some level joins with theirs: no
 /// coarse one lies over the group.
 void SelfTransfer::State::findNear() {
-    near.resize(groups.size());
+    near.assign(groups.size(), {});
     nearPatches.assign(groups.size(), std::vector<std::uint8_t>(levels.patches().size(), 0));
     if (levels.levelCount() == 1) return;
     for (std::size_t g = 0; g < groups.size(); ++g) {
-        std::vector<std::uint32_t> reached = groups[g];
+        std::vector<std::uint32_t> reached = groups[g], triangles;
         for (int ring = 0; ring <= options.rings; ++ring) {
-            near[g].clear();
+            triangles.clear();
             for (const std::uint32_t v : reached) {
                 if (parts.sheets[v])
                     for (const std::uint32_t patch : levels.joined(levels.coarsestOf(v))) nearPatches[g][patch] = 1;
                 for (std::uint32_t i = corners.first[v]; i < corners.first[v + 1]; ++i)
-                    near[g].push_back(corners.order[i] / 3);
+                    triangles.push_back(corners.order[i] / 3);
             }
-            sortUnique(near[g]);
+            sortUnique(triangles);
             reached.clear();
-            for (const std::uint32_t t : near[g])
+            for (const std::uint32_t t : triangles)
                 for (int c = 0; c < 3; ++c) reached.push_back(mesh.triangles[t][c]);
             sortUnique(reached);
         }
+        near[g] = silhouettes.partsOf(0, triangles);
     }
 }
 
@@ -177,67 +191,50 @@ void SelfTransfer::State::keepSpare(std::unique_ptr<FrameBlockers> blockers) {
     spare.push_back(std::move(blockers));
 }
 
-/// What may block some vertex of the group. \return blockers before culling
+/// What may block some vertex of the group. \return  triangles
 std::size_t SelfTransfer::State::listBlockers(const FrameBlockers& blockers, const GroupBounds& bounds,
                                               std::size_t group, const BlockerSets& sets, Scratch& scratch) const {
-    const std::size_t rowCount = blockers.rows.size(), padded = rowCount + 2 * kLanes;
-    if (scratch.seen.size() < rowCount) scratch.seen.resize(rowCount, 0);
-    if (scratch.candidates.size() < padded) {
-        scratch.candidates.resize(padded);
-        scratch.listed.index.resize(padded);
-        for (std::vector<float>& c : scratch.listed.columns) c.resize(padded);
-    }
-    scratch.levels.resize(levels.patches().size() + kLanes);
-    blockerKernels.choose(blockers.patches, bounds, angles[group], scratch.levels.data());
-    ++scratch.lists;
-    std::size_t count = 0, hidden = 0;
-    const std::span<const std::uint64_t> visible =
-        sets.visible.empty() ? sets.visible : sets.visible.subspan(group * setWords(), setWords());
-    const auto add = [&](std::uint32_t row) {
-        if (!visible.empty() && (visible[row / 64] >> row % 64 & 1) == 0) return;
-        scratch.candidates[count] = row;
-        count += std::exchange(scratch.seen[row], scratch.lists) != scratch.lists;
+    std::vector<std::uint32_t>& members = scratch.seen.members;
+    members.assign(silhouettes.clusterCount(), 0);
+    const auto add = [&](const std::vector<SilhouetteMesh::Part>& some) {
+        for (const SilhouetteMesh::Part& part : some) members[part.cluster] |= part.triangles;
     };
-    for (const std::uint32_t t : near[group]) add(t);
-    for (std::size_t p = 0; p < levels.patches().size(); ++p) {
-        std::size_t level = scratch.levels[p] & ~kHiddenPatch;
-        // A coarse triangle next to the vertex is harmless while its back lets light through.
-        if (nearPatches[group][p]) level = 0;
-        const std::vector<std::uint32_t>& triangles = levels.patches()[p].triangles[level];
-        if (scratch.levels[p] & kHiddenPatch)
-            hidden += triangles.size();
-        else
-            for (const std::uint32_t t : triangles) add(levels.firstRow(level) + t);
+    std::size_t hidden = 0;
+    if (levels.levelCount() == 1) {
+        std::fill(members.begin(), members.end(), (1u << kLanes) - 1);
+    } else {
+        scratch.levels.resize(levels.patches().size() + kLanes);
+        blockerKernels.choose(blockers.patches, bounds, angles[group], scratch.levels.data());
+        add(near[group]);
+        for (std::size_t p = 0; p < levels.patches().size(); ++p) {
+            // A coarse triangle next to the vertex is harmless while its back lets light through.
+            const std::size_t level = nearPatches[group][p] ? 0 : scratch.levels[p] & ~kHiddenPatch;
+            if (scratch.levels[p] & kHiddenPatch)
+                hidden += levels.patches()[p].triangles[level].size();
+            else
+                add(patchParts[p][level]);
+        }
     }
-    blockerKernels.list(blockers.rows.data(), scratch.candidates.data(), count, bounds,
-                        groupInside[group] ? kInnerSide : kAnySide, scratch.listed);
-    scratch.rows.resize(scratch.listed.count);
-    for (std::size_t i = 0; i < scratch.listed.count; ++i) scratch.rows[i] = blockers.rows[scratch.listed.index[i]];
-    return count + hidden;
+    if (!sets.visible.empty())
+        for (std::size_t c = 0; c < members.size(); ++c)
+            if ((sets.visible[group * setWords() + c / 64] >> c % 64 & 1) == 0) members[c] = 0;
+    std::size_t listed = hidden;
+    for (const std::uint32_t some : members) listed += static_cast<std::size_t>(std::popcount(some));
+    return listed;
 }
 
-/// The triangles at the vertex itself span no solid angle, but hide what lies under them: each as a triangle from its
-/// far edge down to −n, behind the listed rows.
-void SelfTransfer::State::addSkirts(std::uint32_t vertex, const Receiver& receiver,
-                                    std::span<const glm::vec3> positions, Scratch& scratch) const {
-    scratch.rows.resize(scratch.listed.count);
-    const glm::vec3 p = positions[vertex], n = receiver.normal;
-    const auto rises = [&](const glm::vec3& d) {
-        const float height = glm::dot(d, n);
-        return height > 0 && height * height > 1e-12f * glm::dot(d, d);
-    };
-    const auto addRow = [&](const glm::vec3& a, const glm::vec3& b) {
-        const glm::vec3 q = p + a, r = p + b, under = p - n;
-        scratch.rows.push_back({{q.x, q.y, q.z, r.x, r.y, r.z, under.x, under.y, under.z}, {}, 0, 0, {}});
-    };
-    for (std::uint32_t i = corners.first[vertex]; i < corners.first[vertex + 1]; ++i) {
-        const glm::vec3 a = positions[corners.others[i].x] - p, b = positions[corners.others[i].y] - p;
-        if (!rises(a) && !rises(b)) continue;
-        if (glm::dot(n, glm::cross(a, b)) < 0)  // to face the vertex
-            addRow(b, a);
-        else
-            addRow(a, b);
-    }
+/// \return  edges drawn
+std::size_t SelfTransfer::State::draw(std::uint32_t vertex, std::size_t lane, const SilhouetteMesh::Frame& frame,
+                                      Scratch& scratch) const {
+    SilhouetteMesh::Seen& seen = scratch.seen;
+    silhouettes.addUnder(
+        std::span(corners.order).subspan(corners.first[vertex], corners.first[vertex + 1] - corners.first[vertex]),
+        lane, seen);
+    scratch.layers.assign(layerCounts(options.mask), 0);
+    kernel.add(*rows, frame.edges.data(), scratch.receivers[lane], &seen.dealt.items[seen.dealt.room * lane],
+               seen.dealt.counts[lane], scratch.layers.data());
+    kernel.finish(scratch.layers.data(), seen.poles[lane], &scratch.masks[maskWords(options.mask) * lane]);
+    return seen.dealt.counts[lane];
 }
 
 GroupResult SelfTransfer::State::computeGroup(std::size_t group, std::span<const std::uint32_t> vertices,
@@ -249,36 +246,23 @@ GroupResult SelfTransfer::State::computeGroup(std::size_t group, std::span<const
     const bool timed = group % kTimedGroups == 0;
     const auto now = [&] { return timed ? threadSeconds() : 0.0; };
     const double start = now();
-    const GroupBounds bounds = boundsOfGroup(vertices, positions, frame.normals);
-    result.listed = listBlockers(blockers, bounds, group, sets, scratch) * vertices.size();
-    const std::size_t room = scratch.listed.count + mostCorners + 2 * kLanes;
-    scratch.indices.resize(room * vertices.size());
-    scratch.counts.resize(vertices.size());
     scratch.receivers.resize(vertices.size());
-    const bool drawBoth = parts.hasSheets || groupInside[group];
+    std::uint32_t inside = 0;
     for (std::size_t i = 0; i < vertices.size(); ++i) {
         scratch.receivers[i] = receiverAt(positions[vertices[i]], frame.normals[vertices[i]]);
-        scratch.counts[i] = blockerKernels.cull(scratch.listed, scratch.receivers[i], parts.inside[vertices[i]],
-                                                &scratch.indices[room * i]);
-        for (std::size_t k = 0; !sets.drawn.empty() && k < scratch.counts[i]; ++k) {
-            const std::uint32_t row = scratch.listed.index[scratch.indices[room * i + k]];
-            sets.drawn[group * setWords() + row / 64] |= std::uint64_t{1} << row % 64;
-        }
+        inside |= std::uint32_t{parts.inside[vertices[i]]} << i;
     }
+    const GroupBounds bounds = boundsOfGroup(vertices, positions, frame.normals);
+    result.listed = listBlockers(blockers, bounds, group, sets, scratch) * vertices.size();
+    silhouettes.see(blockers.silhouettes, kernel, scratch.receivers, inside, scratch.seen);
+    if (!sets.drawn.empty())
+        for (std::size_t c = 0; c < silhouettes.clusterCount(); ++c)
+            if (scratch.seen.faces(c)) sets.drawn[group * setWords() + c / 64] |= std::uint64_t{1} << c % 64;
     const double listed = now();
     const std::size_t words = maskWords(options.mask);
-    scratch.masks.assign(words * vertices.size(), 0);
-    for (std::size_t i = 0; i < vertices.size(); ++i) {
-        addSkirts(vertices[i], scratch.receivers[i], positions, scratch);
-        std::uint32_t* indices = &scratch.indices[room * i];
-        const std::size_t skirts = scratch.rows.size() - scratch.listed.count;
-        std::iota(indices + scratch.counts[i], indices + scratch.counts[i] + skirts,
-                  static_cast<std::uint32_t>(scratch.listed.count));
-        scratch.counts[i] += skirts;
-        kernel.draw(*rows, scratch.rows.data(), scratch.receivers[i], drawBoth, indices, scratch.counts[i],
-                    &scratch.masks[words * i]);
-        result.drawn += scratch.counts[i];
-    }
+    scratch.masks.resize(words * vertices.size());
+    for (std::size_t i = 0; i < vertices.size(); ++i)
+        result.drawn += draw(vertices[i], i, blockers.silhouettes, scratch);
     if (use)
         for (std::size_t i = 0; i < vertices.size(); ++i)
             use(vertices[i], scratch.receivers[i], std::span(scratch.masks).subspan(words * i, words));
@@ -288,7 +272,7 @@ GroupResult SelfTransfer::State::computeGroup(std::size_t group, std::span<const
     scratch.world.resize(size * vertices.size());
     scratch.sums.resize(static_cast<std::size_t>(2 * kLanes * integrals->groups));
     for (std::size_t i = 0; i < vertices.size(); ++i) {
-        kernel.integrate(*integrals, &scratch.masks[words * i], scratch.sums.data());
+        maskKernels.integrate(*integrals, &scratch.masks[words * i], scratch.sums.data());
         for (int l = 0, pair = 0; l <= options.order; ++l)
             for (int m = 0; m <= l; ++m, ++pair) {
                 const float* sums = &scratch.sums[static_cast<std::size_t>(pair / kLanes * 2 * kLanes + pair % kLanes)];
@@ -314,14 +298,15 @@ SelfTransfer::SelfTransfer(WeldedMesh mesh, std::span<const glm::vec3> rest, con
     require(std::isfinite(options.lodAngle) && options.lodAngle >= 0, "transfer: expected an angle of 0 or more");
     require(rest.size() == mesh.vertexCount(), "transfer: expected a position a vertex");
     state_ = std::make_unique<State>(std::move(mesh), rest, options);
-    if (state_->levels.levelCount() == 1 || rest.empty()) return;
-    constexpr double kDark = 0.5, kDarkest = 0.1;  // of an open vertex's light
     State& s = *state_;
+    if (rest.empty() || (s.levels.levelCount() == 1 && !s.parts.hasShells)) return;
+    constexpr double kDark = 0.5, kDarkest = 0.1;  // of an open vertex's light
     const std::vector<float> atRest = compute(rest).coefficients;
     if (s.parts.hasShells) {
         std::fill(s.parts.inside.begin(), s.parts.inside.end(), std::uint8_t{0});
         findInside(s.mesh, atRest, compute(rest).coefficients, s.open[0], s.parts);
     }
+    if (s.levels.levelCount() == 1) return;
     std::vector<std::uint8_t> dark(rest.size(), 0);
     const auto darken = [&](const std::vector<float>& coefficients) {
         const std::size_t size = s.open.size() * s.open.size();
@@ -342,14 +327,16 @@ const SelfTransferOptions& SelfTransfer::options() const { return state_->option
 std::size_t SelfTransfer::coarseTriangles() const { return state_->levels.coarsestTriangles(); }
 
 std::uint32_t SelfTransfer::groupCount() const { return static_cast<std::uint32_t>(state_->groups.size()); }
-std::uint32_t SelfTransfer::rowCount() const { return static_cast<std::uint32_t>(state_->levels.rowCount()); }
+std::uint32_t SelfTransfer::clusterCount() const {
+    return static_cast<std::uint32_t>(state_->silhouettes.clusterCount());
+}
 
 std::size_t SelfTransfer::bytes() const {
     const State& s = *state_;
     const std::size_t vertices = s.mesh.vertexCount();
     std::size_t sum = bytesOf(s.mesh.weldOf) + bytesOf(s.mesh.firstOf) + bytesOf(s.mesh.triangles) + s.corners.bytes() +
                       s.levels.bytes() + bytesOf(s.parts.sheets) + bytesOf(s.parts.inside) + bytesOf(s.groups) +
-                      bytesOf(s.near) + bytesOf(s.nearPatches) + bytesOf(s.groupInside) + bytesOf(s.angles);
+                      bytesOf(s.near) + bytesOf(s.nearPatches) + bytesOf(s.angles) + s.silhouettes.bytes();
     for (const std::unique_ptr<FrameBlockers>& blockers : s.spare) sum += blockers->bytes();
     return sum + vertices * (2 * sizeof(glm::vec3) + s.open.size() * s.open.size() * sizeof(float));
 }
@@ -392,6 +379,7 @@ TransferFrame SelfTransfer::compute(std::span<const glm::vec3> given, std::span<
     frame.normals = vertexNormals(s.mesh.triangles, s.corners, positions, s.options.threads);
     std::unique_ptr<FrameBlockers> blockers = s.takeSpare();
     s.levels.place(positions, s.options.threads, *blockers);
+    s.silhouettes.place(blockers->points, s.options.threads, blockers->silhouettes);
     const double prepared = threadSeconds();
     std::vector<std::vector<std::uint32_t>> chosen(s.groups.size());
     std::vector<GroupResult> results(s.groups.size());

@@ -55,7 +55,7 @@ public:
     /// point is relative to the frame's extent).
     using MaskUse = std::function<void(std::uint32_t vertex, const Receiver&, std::span<const std::uint32_t> mask)>;
 
-    /// Bits [group][⌈rows/64⌉] of blockers, for visible_sets.hpp.
+    /// Bits [group][⌈clusters/64⌉] of blockers, for visible_sets.hpp.
     struct BlockerSets {
         std::span<const std::uint64_t> visible;  ///< others aren't listed; empty = all are
         std::span<std::uint64_t> drawn;          ///< those that are drawn are added; empty = not asked
@@ -69,7 +69,7 @@ public:
     const WeldedMesh& mesh() const;
     const SelfTransferOptions& options() const;  ///< Auto sides as most of the mesh has them
     std::size_t coarseTriangles() const;
-    std::uint32_t groupCount() const, rowCount() const;
+    std::uint32_t groupCount() const, clusterCount() const;
     /// Kept beside the tables that all meshes share: the mesh, its levels and groups, the room of a frame (once one has
     /// been computed) and its coefficients.
     std::size_t bytes() const;

@@ -74,12 +74,10 @@ NACRE_INLINE std::size_t append(void* out, std::size_t count, const V& values, u
 #endif
 }
 
-/// Columns `first` … of sixteen rows: Count numbers of each.
+/// Sixteen rows of numbers as columns: the first Count numbers of each.
 template <int Count>
-NACRE_INLINE void gather(const BlockerRow* rows, const std::uint32_t* indices, Floats* columns) {
+NACRE_INLINE void gather(const float* const (&from)[kWide], Floats* columns) {
 #if NACRE_SET == 512
-    const float* from[kWide];
-    for (int k = 0; k < kWide; ++k) from[k] = rows[indices[k]].corners;
     for (int part = 0; 4 * part < Count; ++part) {  // four numbers of each: four quarters a vector, then turned within them
         __m512 z[4];
         for (int k = 0; k < 4; ++k) {
@@ -97,11 +95,15 @@ NACRE_INLINE void gather(const BlockerRow* rows, const std::uint32_t* indices, F
         for (int c = 0; c < 4 && 4 * part + c < Count; ++c) std::memcpy(&columns[4 * part + c], &turned[c], sizeof(Floats));
     }
 #else
-    for (int k = 0; k < kWide; ++k) {
-        const float* row = rows[indices[k]].corners;
-        for (int c = 0; c < Count; ++c) columns[c][k] = row[c];
-    }
+    for (int k = 0; k < kWide; ++k)
+        for (int c = 0; c < Count; ++c) columns[c][k] = from[k][c];
 #endif
+}
+template <int Count>
+NACRE_INLINE void gather(const BlockerRow* rows, const std::uint32_t* indices, Floats* columns) {
+    const float* from[kWide];
+    for (int k = 0; k < kWide; ++k) from[k] = rows[indices[k]].corners;
+    gather<Count>(from, columns);
 }
 
 struct Columns {

@@ -17,7 +17,7 @@
 namespace nacre::tests {
 
 struct Outcome {
-    int code = -1;  ///< 128 + signal when killed
+    int code = -1;         ///< 128 + signal when killed
     std::string out, err;  ///< err without progress, which comes or not with the machine's speed
 };
 

@@ -1,0 +1,235 @@
+#include "transfer/silhouette_blockers.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <tuple>
+
+#include "core/parallel.hpp"
+
+namespace nacre {
+namespace {
+
+struct HalfEdge {
+    std::uint32_t slot;
+    int corner;
+    bool forwards;  ///< from the lower point to the higher
+};
+
+}  // namespace
+
+SilhouetteMesh::SilhouetteMesh(std::span<const std::vector<glm::uvec3>> levels, std::span<const glm::vec3> points,
+                               std::span<const std::vector<BackSides>> backs) {
+    for (std::size_t l = 0; l < levels.size(); ++l) {
+        std::vector<glm::vec3> middles, normals;
+        for (const glm::uvec3& t : levels[l]) {
+            const glm::vec3 n = glm::cross(points[t.y] - points[t.x], points[t.z] - points[t.x]);
+            middles.push_back((points[t.x] + points[t.y] + points[t.z]) / 3.0f);
+            normals.push_back(glm::dot(n, n) > 0 ? glm::normalize(n) : glm::vec3(0, 0, 1));
+        }
+        slots_.emplace_back(levels[l].size());
+        triangleCount_ += levels[l].size();
+        for (const BackSides kind : {BackSides::None, BackSides::Inside, BackSides::All}) {
+            std::vector<glm::vec3> ofKind = normals;
+            for (std::size_t t = 0; t < ofKind.size(); ++t)
+                if (backs[l][t] != kind) ofKind[t] = glm::vec3(0);
+            for (const std::vector<std::uint32_t>& group : groupReceivers(middles, ofKind, kLanes)) {
+                for (const std::uint32_t t : group) {
+                    slots_[l][t] = static_cast<std::uint32_t>(triangles_.size());
+                    triangles_.push_back(levels[l][t]);
+                }
+                clusters_.push_back({l, static_cast<std::uint32_t>(group.size()), kind});
+                triangles_.resize(kLanes * clusters_.size(), glm::uvec3(triangles_.back().x));
+            }
+        }
+    }
+    joinEdges();
+}
+
+void SilhouetteMesh::joinEdges() {
+    const auto none = static_cast<std::uint32_t>(triangles_.size());
+    std::map<std::pair<std::uint32_t, std::uint32_t>, std::vector<HalfEdge>> halves;  // levels share no edges
+    for (std::uint32_t slot = 0; slot < none; ++slot)
+        for (int c = 0; slot % kLanes < clusters_[slot / kLanes].count && c < 3; ++c) {
+            const std::uint32_t p = triangles_[slot][c], q = triangles_[slot][(c + 1) % 3];
+            halves[std::minmax(p, q)].push_back({slot, c, p < q});
+        }
+    struct Edge {
+        glm::uvec2 ends;
+        HalfEdge a, b;
+        std::uint32_t cluster;  ///< that both sides lie in, else their count
+    };
+    std::vector<Edge> edges;
+    for (auto& [ends, of] : halves)
+        while (!of.empty()) {
+            const HalfEdge a = of.back();
+            of.pop_back();
+            const auto b =
+                std::find_if(of.begin(), of.end(), [&](const HalfEdge& h) { return h.forwards != a.forwards; });
+            Edge edge{{ends.first, ends.second}, a, {none, 0, false}, static_cast<std::uint32_t>(clusters_.size())};
+            if (!a.forwards) std::swap(edge.ends.x, edge.ends.y);
+            if (b != of.end()) {
+                edge.b = *b;
+                if (b->slot / kLanes == a.slot / kLanes) edge.cluster = a.slot / kLanes;
+                of.erase(b);
+            }
+            edges.push_back(edge);
+        }
+    std::sort(edges.begin(), edges.end(), [](const Edge& x, const Edge& y) {
+        return std::tie(x.cluster, x.a.slot, x.a.corner) < std::tie(y.cluster, y.a.slot, y.a.corner);
+    });
+    edgesOf_.assign(none, glm::uvec3(0));
+    const auto pad = [&] {
+        while (ends_.size() % kLanes) {
+            ends_.emplace_back(0, 0);
+            edges_.a.push_back(none);
+            edges_.b.push_back(none);
+        }
+    };
+    auto next = edges.begin();
+    for (std::uint32_t c = 0; c <= clusters_.size(); ++c) {
+        edges_.firstInside.push_back(static_cast<std::uint32_t>(ends_.size()));
+        for (; next != edges.end() && next->cluster == c; ++next) {
+            const auto i = static_cast<std::uint32_t>(ends_.size());
+            edgesOf_[next->a.slot][next->a.corner] = i;
+            if (next->b.slot != none) edgesOf_[next->b.slot][next->b.corner] = i;
+            ends_.push_back(next->ends);
+            edges_.a.push_back(next->a.slot);
+            edges_.b.push_back(next->b.slot);
+        }
+        pad();
+    }
+}
+
+std::vector<SilhouetteMesh::Part> SilhouetteMesh::partsOf(std::size_t level,
+                                                          std::span<const std::uint32_t> triangles) const {
+    std::map<std::uint32_t, std::uint32_t> bits;
+    for (const std::uint32_t t : triangles) bits[slots_[level][t] / kLanes] |= 1u << slots_[level][t] % kLanes;
+    std::vector<Part> out;
+    for (const auto& [cluster, some] : bits) out.push_back({cluster, some});
+    return out;
+}
+
+void SilhouetteMesh::placeCluster(std::span<const glm::vec3> points, std::size_t cluster, TriangleCluster& out) const {
+    glm::vec3 low(1e30f), high(-1e30f), axis(0);
+    for (std::size_t k = 0; k < kLanes; ++k) {
+        const glm::uvec3& t = triangles_[kLanes * cluster + k];
+        const glm::vec3 a = points[t.x], b = points[t.y], c = points[t.z];
+        low = glm::min(low, glm::min(a, glm::min(b, c)));
+        high = glm::max(high, glm::max(a, glm::max(b, c)));
+        for (std::size_t i = 0; i < 3; ++i)
+            for (int xyz = 0; xyz < 3; ++xyz)
+                out.corners[3 * i + static_cast<std::size_t>(xyz)][k] = points[t[static_cast<int>(i)]][xyz];
+        const glm::vec3 cross = glm::cross(b - a, c - a), middle = (a + b + c) / 3.0f;
+        const float length = glm::length(cross);
+        const glm::vec3 n = length > 0 ? cross / length : glm::vec3(0);
+        out.offset[k] = glm::dot(n, a);
+        out.reach[k] = std::max({glm::distance(a, middle), glm::distance(b, middle), glm::distance(c, middle)});
+        for (int xyz = 0; xyz < 3; ++xyz) out.normal[xyz][k] = n[xyz], out.middle[xyz][k] = middle[xyz];
+        axis += n;
+    }
+    const std::uint32_t count = clusters_[cluster].count;
+    const glm::vec3 centre = 0.5f * (low + high);
+    axis /= static_cast<float>(count);
+    out.spread = out.slab = out.radius = 0;
+    for (std::size_t k = 0; k < count; ++k) {
+        const glm::vec3 n(out.normal[0][k], out.normal[1][k], out.normal[2][k]);
+        out.spread = std::max(out.spread, glm::distance(n, axis));
+        out.slab = std::max(out.slab, std::abs(glm::dot(n, centre) - out.offset[k]));
+        for (int c = 0; c < 3; ++c)
+            out.radius = std::max(out.radius, glm::distance(points[triangles_[kLanes * cluster + k][c]], centre));
+    }
+    for (int c = 0; c < 3; ++c) out.centre[c] = centre[c], out.axis[c] = axis[c];
+}
+
+void SilhouetteMesh::place(std::span<const glm::vec3> points, unsigned threads, Frame& out) const {
+    out.clusters.resize(clusters_.size());
+    out.edges.resize(ends_.size());
+    constexpr std::size_t kClusters = 8, kEdges = 512;
+    const std::size_t ofClusters = (clusters_.size() + kClusters - 1) / kClusters;
+    parallelFor(ofClusters + (ends_.size() + kEdges - 1) / kEdges, threads, [&](std::size_t i) {
+        if (i < ofClusters) {
+            for (std::size_t c = i * kClusters; c < std::min(clusters_.size(), (i + 1) * kClusters); ++c)
+                placeCluster(points, c, out.clusters[c]);
+            return;
+        }
+        const std::size_t first = (i - ofClusters) * kEdges;
+        for (std::size_t e = first; e < std::min(ends_.size(), first + kEdges); ++e) {
+            const glm::vec3 p = points[ends_[e].x], q = points[ends_[e].y];
+            out.edges[e] = {{p.x, p.y, p.z}, 0, {q.x, q.y, q.z}, 0};
+        }
+    });
+}
+
+void SilhouetteMesh::see(const Frame& frame, const SilhouetteKernel& kernel, std::span<const Receiver> receivers,
+                         std::uint32_t inside, Seen& out) const {
+    const ReceiverLanes lanes = receiverLanes(receivers);
+    const std::uint32_t used = (1u << receivers.size()) - 1;
+    out.flags.resize(clusters_.size());
+    out.sides.resize(triangles_.size() + 1);
+    out.sides.back() = 0;
+    out.differing.resize(ends_.size());
+    out.dealt.room = 2 * ends_.size() + 2 * kLanes;  // each at most once, and once as an edge under which all is
+    out.dealt.items.resize(out.dealt.room * kLanes);
+    std::fill_n(out.dealt.counts, kLanes, std::size_t{0});
+    std::fill_n(out.poles, kLanes, 0);
+    out.skip.assign(clusters_.size(), 1);
+    for (std::size_t c = 0; c < clusters_.size(); ++c) {
+        ClusterFlags& f = out.flags[c];
+        std::uint32_t* sides = out.sides.data() + kLanes * c;
+        f.above = 0;
+        if (out.members[c]) {
+            f = kernel.classify(frame.clusters[c], lanes);
+            f.above &= used;
+        }
+        if (!f.above) {
+            std::fill_n(sides, kLanes, 0u);
+            continue;
+        }
+        const Cluster& cluster = clusters_[c];
+        const std::uint32_t full = (1u << cluster.count) - 1;
+        const std::uint32_t backs = cluster.backs == BackSides::All    ? 0xffffu
+                                    : cluster.backs == BackSides::None ? 0
+                                                                       : inside;
+        const std::uint32_t seen = f.above | (f.above & backs) << 16;
+        const bool uniform = (f.above & ~(f.facing | f.away)) == 0;
+        if (uniform) {
+            const std::uint32_t all = (f.facing | f.away << 16) & seen;
+            if (all == 0) f.overhead = 0;
+            for (std::size_t t = 0; t < kLanes; ++t) sides[t] = out.members[c] >> t & 1 ? all : 0;
+        } else {
+            kernel.face(frame.clusters[c], lanes, backs != 0, sides);
+            if (f.above != used || (backs != 0 && backs != 0xffffu))
+                for (std::size_t t = 0; t < kLanes; ++t) sides[t] &= seen;
+            if ((out.members[c] & full) != full)
+                for (std::size_t t = 0; t < kLanes; ++t) sides[t] = out.members[c] >> t & 1 ? sides[t] : 0;
+        }
+        out.skip[c] = uniform && (out.members[c] & full) == full;
+        for (std::uint32_t left = f.overhead & used; left; left &= left - 1) {
+            const int k = __builtin_ctz(left);
+            out.poles[k] += kernel.overhead(frame.clusters[c], receivers[static_cast<std::size_t>(k)], k, sides);
+        }
+    }
+    kernel.differ(edges_, out.sides.data(), out.skip.data(), out.differing);
+    kernel.rise(frame.edges.data(), lanes, out.differing);
+    kernel.deal(out.differing, out.dealt);
+}
+
+void SilhouetteMesh::addUnder(std::span<const std::uint32_t> corners, std::size_t receiver, Seen& seen) const {
+    std::uint32_t* items = seen.dealt.items.data() + receiver * seen.dealt.room;
+    for (const std::uint32_t corner : corners)
+        items[seen.dealt.counts[receiver]++] =
+            8 * edgesOf_[slots_[0][corner / 3]][static_cast<int>((corner + 1) % 3)] + DealtEdges::kUnder;
+}
+
+bool SilhouetteMesh::Seen::faces(std::size_t cluster) const {
+    const std::uint32_t* of = sides.data() + kLanes * cluster;
+    return std::any_of(of, of + kLanes, [](std::uint32_t s) { return s != 0; });
+}
+
+std::size_t SilhouetteMesh::bytes() const {
+    return bytesOf(triangles_) + bytesOf(clusters_) + bytesOf(slots_) + bytesOf(ends_) + bytesOf(edges_.a) +
+           bytesOf(edges_.b) + bytesOf(edges_.firstInside) + bytesOf(edgesOf_);
+}
+
+}  // namespace nacre

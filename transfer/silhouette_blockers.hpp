@@ -1,0 +1,83 @@
+// What blocks a moving mesh's vertices as silhouettes: edges of which one triangle blocks and the other doesn't.
+#pragma once
+
+#include <span>
+
+#include "transfer/memory.hpp"
+#include "transfer/silhouette_kernel.hpp"
+
+namespace nacre {
+
+/// Which receivers see backs of a triangle block.
+enum class BackSides : std::uint8_t { None, Inside, All };
+
+/// Triangles of all levels of a mesh, in clusters of one level, and their edges by the clusters on their two sides.
+/// Triangles of one level share edges; what hides is the union of those that are listed, of whatever levels.
+class SilhouetteMesh {
+public:
+    struct Frame {
+        std::vector<TriangleCluster> clusters;
+        std::vector<EdgeRow> edges;
+        std::size_t bytes() const { return bytesOf(clusters) + bytesOf(edges); }
+    };
+    /// Some triangles of a cluster, as bits.
+    struct Part {
+        std::uint32_t cluster = 0, triangles = 0;
+    };
+    /// What a group of up to sixteen receivers sees.
+    struct Seen {
+        std::vector<std::uint32_t> members;  ///< [cluster] the triangles that are listed, as bits: see's input
+        std::vector<ClusterFlags> flags;     ///< [cluster]
+        std::vector<std::uint8_t> skip;      ///< [cluster]
+        std::vector<std::uint32_t> sides;    ///< [cluster][16] as SilhouetteKernel::face; one more, of what isn't there
+        DifferingEdges differing;
+        DealtEdges dealt;
+        std::int32_t poles[kLanes] = {};
+        /// Whether some triangle of the cluster blocks for some receiver.
+        bool faces(std::size_t cluster) const;
+    };
+
+    SilhouetteMesh() = default;
+    /// \param levels  triangles by the numbers of points  \param points  at rest, by which clusters are made
+    /// \param backs  [level][triangle]
+    SilhouetteMesh(std::span<const std::vector<glm::uvec3>> levels, std::span<const glm::vec3> points,
+                   std::span<const std::vector<BackSides>> backs);
+
+    /// The parts of clusters that some triangles of a level are.
+    std::vector<Part> partsOf(std::size_t level, std::span<const std::uint32_t> triangles) const;
+
+    /// \param points  of a frame, with an extent of 1
+    void place(std::span<const glm::vec3> points, unsigned threads, Frame& out) const;
+
+    /// The edges that bound what out.members hide from each receiver.
+    /// \param inside  bits of the receivers that see Inside backs
+    void see(const Frame& frame, const SilhouetteKernel& kernel, std::span<const Receiver> receivers,
+             std::uint32_t inside, Seen& out) const;
+
+    /// Adds what the triangles at a receiver hide: they span no solid angle, but all that lies under them.
+    /// \param corners  [3 × triangle + corner] of level 0 that the receiver is at; to be called after see
+    void addUnder(std::span<const std::uint32_t> corners, std::size_t receiver, Seen& seen) const;
+
+    std::size_t clusterCount() const { return clusters_.size(); }
+    std::size_t triangleCount() const { return triangleCount_; }
+    std::size_t bytes() const;
+
+private:
+    struct Cluster {
+        std::size_t level = 0;
+        std::uint32_t count = 0;  ///< triangles
+        BackSides backs = BackSides::None;
+    };
+    void placeCluster(std::span<const glm::vec3> points, std::size_t cluster, TriangleCluster& out) const;
+    void joinEdges();
+
+    std::vector<glm::uvec3> triangles_;  ///< [cluster][16]
+    std::vector<Cluster> clusters_;
+    std::vector<std::vector<std::uint32_t>> slots_;  ///< [level][triangle] its place in triangles_
+    std::vector<glm::uvec2> ends_;                   ///< [edge] points
+    EdgeSides edges_;
+    std::vector<glm::uvec3> edgesOf_;  ///< [place] of a triangle's corners c and c + 1
+    std::size_t triangleCount_ = 0;
+};
+
+}  // namespace nacre

@@ -1,0 +1,67 @@
+#include "transfer/silhouette_kernel.hpp"
+
+#include <algorithm>
+#include <cstring>
+#include <stdexcept>
+#include <string>
+#if defined(__x86_64__)
+#include <immintrin.h>
+#endif
+
+namespace nacre {
+namespace {
+
+#define NACRE_KERNEL "transfer/silhouette_kernel.inl"
+#include "core/wide.inl"
+
+template <int N>
+SilhouetteKernel kernelOf([[maybe_unused]] VectorSet set) {
+#if defined(__x86_64__)
+    if (set == VectorSet::Avx512)
+        return {avx512::classify, avx512::face, avx512::differ, avx512::overhead,
+                avx512::rise,     avx512::deal, avx512::add<N>, avx512::finish<N>};
+    if (set == VectorSet::Avx2)
+        return {avx2::classify, avx2::face, avx2::differ, avx2::overhead,
+                avx2::rise,     avx2::deal, avx2::add<N>, avx2::finish<N>};
+#endif
+    return {plain::classify, plain::face, plain::differ, plain::overhead,
+            plain::rise,     plain::deal, plain::add<N>, plain::finish<N>};
+}
+
+}  // namespace
+
+void DifferingEdges::resize(std::size_t edges) {
+    for (std::vector<std::uint32_t>* column : {&edge, &sides, &first}) column->resize(edges + kLanes);
+}
+
+ReceiverLanes receiverLanes(std::span<const Receiver> receivers) {
+    ReceiverLanes out;
+    for (std::size_t k = 0; k < kLanes; ++k) {
+        const Receiver& r = receivers[k < receivers.size() ? k : 0];
+        for (int c = 0; c < 3; ++c) {
+            out.point[c][k] = r.point[c];
+            out.tangent[c][k] = r.tangent[c];
+            out.bitangent[c][k] = r.bitangent[c];
+            out.normal[c][k] = r.normal[c];
+        }
+    }
+    return out;
+}
+
+SilhouetteKernel silhouetteKernel(int size, VectorSet set) {
+    set = chosenSet(set);
+    switch (size) {
+        case 16:
+            return kernelOf<16>(set);
+        case 32:
+            return kernelOf<32>(set);
+        case 64:
+            return kernelOf<64>(set);
+        case 128:
+            return kernelOf<128>(set);
+        default:
+            throw std::invalid_argument("mask: expected a size of 16, 32, 64 or 128, found " + std::to_string(size));
+    }
+}
+
+}  // namespace nacre

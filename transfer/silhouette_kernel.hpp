@@ -1,0 +1,98 @@
+// Silhouettes into masks, by the widest vectors that the processor has: what a set of triangles hides, from the edges
+// that only one of two blocking triangles has.
+#pragma once
+
+#include <span>
+
+#include "transfer/mask_kernel.hpp"
+#include "transfer/receiver_groups.hpp"
+
+namespace nacre {
+
+/// An edge in its place, from p to q as the triangle that it is named after has it.
+struct alignas(32) EdgeRow {
+    float p[3] = {}, spare = 0;
+    float q[3] = {}, room = 0;
+};
+
+/// Sixteen triangles near each other, side by side; those that aren't used have no area.
+struct TriangleCluster {
+    alignas(64) float corners[9][kLanes];
+    float normal[3][kLanes], offset[kLanes];  ///< of their planes: unit normals, outward, or 0
+    float middle[3][kLanes], reach[kLanes];   ///< balls about them
+    /// A ball about all, normals within `spread` of `axis` (as lengths of differences), planes within `slab` of the
+    /// ball's centre.
+    float centre[3] = {}, radius = 0;
+    float axis[3] = {}, spread = 0;
+    float slab = 0;
+};
+
+/// Sixteen receivers side by side. Those that aren't used repeat the first.
+struct ReceiverLanes {
+    alignas(64) float point[3][kLanes], tangent[3][kLanes], bitangent[3][kLanes], normal[3][kLanes];
+};
+ReceiverLanes receiverLanes(std::span<const Receiver> receivers);
+
+/// What a cluster is for each of sixteen receivers, as bits: whether some of it may rise over the horizon, whether all
+/// its triangles face the receiver, whether none does, and whether some may lie straight above.
+struct ClusterFlags {
+    std::uint32_t above, facing, away, overhead;
+};
+
+/// A mask as counts of layers: for each row how many more layers are hidden from a step on, [step][row] with one step
+/// below the horizon, and how many hide the pole. A direction is hidden where the sum from the pole is positive.
+inline std::size_t layerCounts(int size) { return static_cast<std::size_t>(size) * static_cast<std::size_t>(size + 1); }
+
+/// A triangle seen from p counts as facing when p is farther in front of it: those at the vertex itself don't.
+inline constexpr float kFacing = 1e-6f;
+
+/// A mesh's edges by the places of the triangles on their two sides; an edge runs along `a` as that stands and along
+/// `b` reversed. First those inside clusters, [cluster] from firstInside[cluster] on, then those between clusters and
+/// bare ones, all in sixteens: where there are fewer, a = b.
+struct EdgeSides {
+    std::vector<std::uint32_t> a, b;
+    std::vector<std::uint32_t> firstInside;  ///< one more than clusters: there those between begin
+};
+
+/// Edges by the receivers for which their two sides differ, room for 15 more behind.
+struct DifferingEdges {
+    std::vector<std::uint32_t> edge, sides,
+        first;  ///< sides: as bits; first: what the first triangle is, as face has it
+    std::size_t count = 0;
+    void resize(std::size_t edges);
+};
+/// Of each receiver the edges that bound what it doesn't see: 8 × the edge's number, and flags.
+struct DealtEdges {
+    static constexpr std::uint32_t kOther = 1;  ///< the layer lies on the edge's other side
+    static constexpr std::uint32_t kTwice = 2;  ///< two layers do, where a back joins a front
+    static constexpr std::uint32_t kUnder = 4;  ///< it lies under the edge, whichever side that is
+    std::vector<std::uint32_t> items;           ///< [receiver][room]
+    std::size_t room = 0;
+    std::size_t counts[kLanes] = {};
+};
+
+struct SilhouetteKernel {
+    ClusterFlags (*classify)(const TriangleCluster& cluster, const ReceiverLanes& receivers);
+    /// Low sixteen bits of `out`: for which receivers the triangle faces; if `backs` high ones: to which it turns its
+    /// back.
+    void (*face)(const TriangleCluster& cluster, const ReceiverLanes& receivers, bool backs, std::uint32_t* out);
+    /// \param sides  [place] as face has it  \param skip  [cluster] whether all edges inside are alike
+    void (*differ)(const EdgeSides& edges, const std::uint32_t* sides, const std::uint8_t* skip, DifferingEdges& out);
+    /// How many of the triangles that face (as face has it) receiver `lane`, or turn their back to it, hide its pole.
+    std::int32_t (*overhead)(const TriangleCluster& cluster, const Receiver& receiver, int lane,
+                             const std::uint32_t* faces);
+    /// Leaves only the receivers over whose horizon an end of the edge is, and edges that have some.
+    void (*rise)(const EdgeRow* edges, const ReceiverLanes& receivers, DifferingEdges& differing);
+    /// Adds the edges to their receivers' items.
+    void (*deal)(const DifferingEdges& edges, DealtEdges& out);
+    /// Adds the layers that edges bound. \param items  as DealtEdges has them, room for 15 more behind
+    void (*add)(const MaskRows& rows, const EdgeRow* edges, const Receiver& receiver, std::uint32_t* items,
+                std::size_t count, std::int8_t* layers);
+    /// \param mask  [(N + 31)/32][N] words, written
+    void (*finish)(const std::int8_t* layers, std::int32_t pole, std::uint32_t* mask);
+};
+
+/// \param size  of the mask: 16, 32, 64 or 128 \throws std::invalid_argument also when the processor lacks the set
+SilhouetteKernel silhouetteKernel(int size, VectorSet set = VectorSet::Widest);
+
+}  // namespace nacre
