@@ -68,13 +68,14 @@ double wallSeconds() {
 
 SelfTransferOptions fastTransfer() {
     SelfTransferOptions options;
-    options.lodAngle = 0.5;
+    options.mask = 16;
+    options.coarse = 0;
     return options;
 }
 
 SelfTransferOptions qualityTransfer() {
     SelfTransferOptions options;
-    options.lodAngle = 0.25;
+    options.coarse = 0;
     return options;
 }
 

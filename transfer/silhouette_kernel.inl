@@ -169,14 +169,16 @@ NACRE_INLINE Mask rowsBefore(const float* tangents, const Floats& x, const Float
     return y < Floats{} ? -rows : rows;
 }
 
-/// columns of sixteen rows' tables
+/// A table's numbers for sixteen rows.
 template <int N>
 NACRE_INLINE Floats atRows(const float* table, const Mask& row) {
 #if NACRE_SET == 512
-    if constexpr (N == 32) {
-        const __m512 v = _mm512_permutex2var_ps(_mm512_load_ps(table), as<__m512i>(row), _mm512_load_ps(table + kWide));
-        return as<Floats>(v);
-    }
+    const auto ofTwo = [&](const float* at) {
+        return _mm512_permutex2var_ps(_mm512_load_ps(at), as<__m512i>(row), _mm512_load_ps(at + kWide));
+    };
+    if constexpr (N == 16) return as<Floats>(_mm512_permutexvar_ps(as<__m512i>(row), _mm512_load_ps(table)));
+    if constexpr (N == 32) return as<Floats>(ofTwo(table));
+    if constexpr (N == 64) return choose((row & 32) != 0, as<Floats>(ofTwo(table + 32)), as<Floats>(ofTwo(table)));
 #endif
     Floats out;
     for (int k = 0; k < kWide; ++k) out[k] = table[row[k]];
@@ -192,16 +194,41 @@ struct Swept {
     std::size_t count = 0;
 };
 
+/// Where edges cross rows: planes as cot θ = a cosφ + b sinφ, and the layers that begin there, side by side.
+struct Crossings {
+    static constexpr std::size_t kRoom = 512;
+    float a[kRoom + kWide], b[kRoom + kWide];
+    std::int32_t row[kRoom + kWide], layers[kRoom + kWide];
+    std::size_t count = 0;
+};
+
+template <int N>
+NACRE_INLINE void addCrossings(const MaskRows& rows, Crossings& crossings, std::int8_t* layers) {
+    for (std::size_t i = 0; i < crossings.count; i += kWide) {
+        Mask row;
+        std::memcpy(&row, crossings.row + i, sizeof(row));
+        row &= N - 1;  // of lanes behind the last too
+        const Floats cot = load(crossings.a + i) * atRows<N>(rows.cosPhi, row) + load(crossings.b + i) * atRows<N>(rows.sinPhi, row);
+        const Floats bounded = larger(cot, Floats{});
+        const Mask step = whole(splat(N) / (splat(1) + bounded * bounded) + atRows<N>(rows.dither, row));
+        std::int32_t at[kWide];
+        store(at, step * N + row);
+        const std::size_t end = std::min<std::size_t>(kWide, crossings.count - i);
+        for (std::size_t k = 0; k < end; ++k) layers[at[k]] = static_cast<std::int8_t>(layers[at[k]] + crossings.layers[i + k]);
+    }
+    crossings.count = 0;
+}
+
 template <int N>
 void addSwept(const MaskRows& rows, Swept& swept, std::int8_t* layers) {
-    const Floats zero{};
+    Crossings crossings;
     for (std::size_t i = 0; i < swept.count; i += kWide) {
         const Columns p{load(swept.column[0] + i), load(swept.column[1] + i), load(swept.column[2] + i)};
         const Columns q{load(swept.column[3] + i), load(swept.column[4] + i), load(swept.column[5] + i)};
         Mask packed;
         std::memcpy(&packed, swept.rows + i, sizeof(packed));
         Mask row = packed & (N - 1), more = packed / Swept::kMore;
-        const Mask layersHere = (packed & Swept::kTwice) ? Mask{} + 2 : Mask{} + 1, sign = (packed & Swept::kEnds) ? -layersHere : layersHere;
+        const Mask twice = (packed & Swept::kTwice) ? Mask{} + 2 : Mask{} + 1, begun = (packed & Swept::kEnds) ? -twice : twice;
         const Columns n = cross(p, q);
         const Floats least = splat(1e-7f) * (absolute(n.x) + absolute(n.y)) + splat(1e-37f);  // vertical planes
         const Floats inverse = splat(1) / larger(absolute(n.z), least);
@@ -209,20 +236,17 @@ void addSwept(const MaskRows& rows, Swept& swept, std::int8_t* layers) {
         const Floats a = choose(left, -n.x, n.x) * inverse, b = choose(left, -n.y, n.y) * inverse;
         unsigned some = swept.count - i >= kWide ? 0xffffu : (1u << (swept.count - i)) - 1;
         while (some) {
-            const Floats cot = larger(a * atRows<N>(rows.cosPhi, row) + b * atRows<N>(rows.sinPhi, row), zero);
-            const Mask step = whole(splat(N) / (splat(1) + cot * cot) + atRows<N>(rows.dither, row));
-            std::int32_t at[kWide], one[kWide];
-            store(at, step * N + row);
-            store(one, sign);
-            for (unsigned l = some; l; l &= l - 1) {
-                const int k = __builtin_ctz(l);
-                layers[at[k]] = static_cast<std::int8_t>(layers[at[k]] + one[k]);
-            }
+            append(crossings.a, crossings.count, a, some);
+            append(crossings.b, crossings.count, b, some);
+            append(crossings.row, crossings.count, row, some);
+            crossings.count = append(crossings.layers, crossings.count, begun, some);
+            if (crossings.count > Crossings::kRoom - kWide) addCrossings<N>(rows, crossings, layers);
             row = (row + 1) & (N - 1);
             more -= 1;
             some &= lanes(Mask{} - more);
         }
     }
+    addCrossings<N>(rows, crossings, layers);
     swept.count = 0;
 }
 
