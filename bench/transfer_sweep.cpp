@@ -68,13 +68,13 @@ double wallSeconds() {
 
 SelfTransferOptions fastTransfer() {
     SelfTransferOptions options;
-    options.mask = 16;
     options.coarse = 0;
     return options;
 }
 
 SelfTransferOptions qualityTransfer() {
     SelfTransferOptions options;
+    options.mask = 64;
     options.coarse = 0;
     return options;
 }

@@ -1,6 +1,7 @@
 #include "transfer/self_transfer.hpp"
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cmath>
 #include <limits>
@@ -84,12 +85,12 @@ struct SelfTransfer::State {
     std::unique_ptr<FrameBlockers> takeSpare();
     void keepSpare(std::unique_ptr<FrameBlockers> blockers);
     void makeGroups(std::span<const glm::vec3> rest, std::span<const std::uint8_t> dark);
+    std::vector<std::vector<std::uint32_t>> patchesInOrder(std::span<const glm::vec3> rest) const;
     void makeSilhouettes(std::span<const glm::vec3> rest);
     std::size_t listBlockers(const FrameBlockers& blockers, const GroupBounds& bounds, std::size_t group,
                              const BlockerSets& sets, Scratch& scratch) const;
     std::size_t setWords() const { return (silhouettes.clusterCount() + 63) / 64; }
-    std::size_t draw(std::uint32_t vertex, std::size_t lane, const SilhouetteMesh::Frame& frame,
-                     Scratch& scratch) const;
+    std::size_t draw(std::size_t lane, const SilhouetteMesh::Frame& frame, Scratch& scratch) const;
     GroupResult computeGroup(std::size_t group, std::span<const std::uint32_t> vertices, const FrameBlockers& blockers,
                              std::span<const glm::vec3> positions, const MaskUse& use, const BlockerSets& sets,
                              TransferFrame& frame) const;
@@ -115,6 +116,24 @@ SelfTransfer::State::State(WeldedMesh m, std::span<const glm::vec3> rest, const 
     makeGroups(rest, {});
 }
 
+/// [level][triangle] the patch of its first corner, patches numbered so that those near each other follow each other.
+std::vector<std::vector<std::uint32_t>> SelfTransfer::State::patchesInOrder(std::span<const glm::vec3> rest) const {
+    if (levels.levelCount() == 1) return {};
+    std::vector<glm::vec3> middles, normals;
+    for (const glm::uvec3& t : levels.vertexTriangles(levels.levelCount() - 1)) {
+        middles.push_back((rest[t.x] + rest[t.y] + rest[t.z]) / 3.0f);
+        const glm::vec3 n = glm::cross(rest[t.y] - rest[t.x], rest[t.z] - rest[t.x]);
+        normals.push_back(glm::dot(n, n) > 0 ? glm::normalize(n) : glm::vec3(0, 0, 1));
+    }
+    std::vector<std::uint32_t> numbers(middles.size());
+    std::uint32_t next = 0;
+    for (const std::vector<std::uint32_t>& one : groupReceivers(middles, normals, 1)) numbers[one[0]] = next++;
+    std::vector<std::vector<std::uint32_t>> out(levels.levelCount());
+    for (std::size_t l = 0; l < levels.levelCount(); ++l)
+        for (const glm::uvec3& t : levels.vertexTriangles(l)) out[l].push_back(numbers[levels.coarsestOf(t.x)]);
+    return out;
+}
+
 void SelfTransfer::State::makeSilhouettes(std::span<const glm::vec3> rest) {
     const BackSides inner = parts.hasShells || parts.sides == BlockingSides::Fine ? BackSides::Inside : BackSides::None;
     std::vector<std::vector<glm::uvec3>> triangles;
@@ -124,7 +143,7 @@ void SelfTransfer::State::makeSilhouettes(std::span<const glm::vec3> rest) {
         for (const glm::uvec3& t : levels.vertexTriangles(l))
             backs[l].push_back(parts.sheets[t.x] ? BackSides::All : l == 0 ? inner : BackSides::None);
     }
-    silhouettes = SilhouetteMesh(triangles, levels.unpushed(rest), backs);
+    silhouettes = SilhouetteMesh(triangles, levels.unpushed(rest), backs, patchesInOrder(rest));
     for (const BlockerLevels::Patch& patch : levels.patches()) {
         patchParts.emplace_back();
         for (std::size_t l = 0; l < levels.levelCount(); ++l)
@@ -224,12 +243,8 @@ std::size_t SelfTransfer::State::listBlockers(const FrameBlockers& blockers, con
 }
 
 /// \return  edges drawn
-std::size_t SelfTransfer::State::draw(std::uint32_t vertex, std::size_t lane, const SilhouetteMesh::Frame& frame,
-                                      Scratch& scratch) const {
+std::size_t SelfTransfer::State::draw(std::size_t lane, const SilhouetteMesh::Frame& frame, Scratch& scratch) const {
     SilhouetteMesh::Seen& seen = scratch.seen;
-    silhouettes.addUnder(
-        std::span(corners.order).subspan(corners.first[vertex], corners.first[vertex + 1] - corners.first[vertex]),
-        lane, seen);
     scratch.layers.assign(layerCounts(options.mask), 0);
     kernel.add(*rows, frame.edges.data(), scratch.receivers[lane], &seen.dealt.items[seen.dealt.room * lane],
                seen.dealt.counts[lane], scratch.layers.data());
@@ -248,13 +263,16 @@ GroupResult SelfTransfer::State::computeGroup(std::size_t group, std::span<const
     const double start = now();
     scratch.receivers.resize(vertices.size());
     std::uint32_t inside = 0;
+    std::array<std::span<const std::uint32_t>, kLanes> meeting;
     for (std::size_t i = 0; i < vertices.size(); ++i) {
+        const std::uint32_t first = corners.first[vertices[i]];
+        meeting[i] = std::span(corners.order).subspan(first, corners.first[vertices[i] + 1] - first);
         scratch.receivers[i] = receiverAt(positions[vertices[i]], frame.normals[vertices[i]]);
         inside |= std::uint32_t{parts.inside[vertices[i]]} << i;
     }
     const GroupBounds bounds = boundsOfGroup(vertices, positions, frame.normals);
     result.listed = listBlockers(blockers, bounds, group, sets, scratch) * vertices.size();
-    silhouettes.see(blockers.silhouettes, kernel, scratch.receivers, inside, scratch.seen);
+    silhouettes.see(blockers.silhouettes, kernel, scratch.receivers, meeting, inside, scratch.seen);
     if (!sets.drawn.empty())
         for (std::size_t c = 0; c < silhouettes.clusterCount(); ++c)
             if (scratch.seen.faces(c)) sets.drawn[group * setWords() + c / 64] |= std::uint64_t{1} << c % 64;
@@ -262,7 +280,7 @@ GroupResult SelfTransfer::State::computeGroup(std::size_t group, std::span<const
     const std::size_t words = maskWords(options.mask);
     scratch.masks.resize(words * vertices.size());
     for (std::size_t i = 0; i < vertices.size(); ++i)
-        result.drawn += draw(vertices[i], i, blockers.silhouettes, scratch);
+        result.drawn += draw(i, blockers.silhouettes, scratch);
     if (use)
         for (std::size_t i = 0; i < vertices.size(); ++i)
             use(vertices[i], scratch.receivers[i], std::span(scratch.masks).subspan(words * i, words));

@@ -18,8 +18,19 @@ struct HalfEdge {
 
 }  // namespace
 
+void SilhouetteMesh::addCluster(std::size_t level, const std::vector<glm::uvec3>& triangles,
+                                std::span<const std::uint32_t> some, BackSides backs) {
+    for (const std::uint32_t t : some) {
+        slots_[level][t] = static_cast<std::uint32_t>(triangles_.size());
+        triangles_.push_back(triangles[t]);
+    }
+    clusters_.push_back({static_cast<std::uint32_t>(some.size()), backs});
+    triangles_.resize(kLanes * clusters_.size(), glm::uvec3(triangles_.back().x));
+}
+
 SilhouetteMesh::SilhouetteMesh(std::span<const std::vector<glm::uvec3>> levels, std::span<const glm::vec3> points,
-                               std::span<const std::vector<BackSides>> backs) {
+                               std::span<const std::vector<BackSides>> backs,
+                               std::span<const std::vector<std::uint32_t>> patches) {
     for (std::size_t l = 0; l < levels.size(); ++l) {
         std::vector<glm::vec3> middles, normals;
         for (const glm::uvec3& t : levels[l]) {
@@ -31,16 +42,22 @@ SilhouetteMesh::SilhouetteMesh(std::span<const std::vector<glm::uvec3>> levels, 
         triangleCount_ += levels[l].size();
         for (const BackSides kind : {BackSides::None, BackSides::Inside, BackSides::All}) {
             std::vector<glm::vec3> ofKind = normals;
-            for (std::size_t t = 0; t < ofKind.size(); ++t)
-                if (backs[l][t] != kind) ofKind[t] = glm::vec3(0);
-            for (const std::vector<std::uint32_t>& group : groupReceivers(middles, ofKind, kLanes)) {
-                for (const std::uint32_t t : group) {
-                    slots_[l][t] = static_cast<std::uint32_t>(triangles_.size());
-                    triangles_.push_back(levels[l][t]);
-                }
-                clusters_.push_back({l, static_cast<std::uint32_t>(group.size()), kind});
-                triangles_.resize(kLanes * clusters_.size(), glm::uvec3(triangles_.back().x));
+            std::vector<std::uint32_t> some;
+            for (std::uint32_t t = 0; t < ofKind.size(); ++t)
+                if (backs[l][t] == kind)
+                    some.push_back(t);
+                else
+                    ofKind[t] = glm::vec3(0);
+            if (patches.empty()) {
+                for (const std::vector<std::uint32_t>& group : groupReceivers(middles, ofKind, kLanes))
+                    addCluster(l, levels[l], group, kind);
+                continue;
             }
+            std::stable_sort(some.begin(), some.end(),
+                             [&](std::uint32_t x, std::uint32_t y) { return patches[l][x] < patches[l][y]; });
+            for (std::size_t i = 0; i < some.size(); i += kLanes)
+                addCluster(l, levels[l], std::span(some).subspan(i, std::min<std::size_t>(kLanes, some.size() - i)),
+                           kind);
         }
     }
     joinEdges();
@@ -162,7 +179,8 @@ void SilhouetteMesh::place(std::span<const glm::vec3> points, unsigned threads, 
 }
 
 void SilhouetteMesh::see(const Frame& frame, const SilhouetteKernel& kernel, std::span<const Receiver> receivers,
-                         std::uint32_t inside, Seen& out) const {
+                         std::span<const std::span<const std::uint32_t>> corners, std::uint32_t inside,
+                         Seen& out) const {
     const ReceiverLanes lanes = receiverLanes(receivers);
     const std::uint32_t used = (1u << receivers.size()) - 1;
     out.flags.resize(clusters_.size());
@@ -173,6 +191,15 @@ void SilhouetteMesh::see(const Frame& frame, const SilhouetteKernel& kernel, std
     out.dealt.items.resize(out.dealt.room * kLanes);
     std::fill_n(out.dealt.counts, kLanes, std::size_t{0});
     std::fill_n(out.poles, kLanes, 0);
+    out.own.resize(triangles_.size());
+    const auto markOwn = [&](bool mark) {
+        for (std::size_t k = 0; k < receivers.size(); ++k)
+            for (const std::uint32_t corner : corners[k]) {
+                std::uint32_t& own = out.own[slots_[0][corner / 3]];
+                own = mark ? own | 0x10001u << k : 0;
+            }
+    };
+    markOwn(true);
     out.skip.assign(clusters_.size(), 1);
     for (std::size_t c = 0; c < clusters_.size(); ++c) {
         ClusterFlags& f = out.flags[c];
@@ -193,33 +220,27 @@ void SilhouetteMesh::see(const Frame& frame, const SilhouetteKernel& kernel, std
                                                                        : inside;
         const std::uint32_t seen = f.above | (f.above & backs) << 16;
         const bool uniform = (f.above & ~(f.facing | f.away)) == 0;
-        if (uniform) {
-            const std::uint32_t all = (f.facing | f.away << 16) & seen;
-            if (all == 0) f.overhead = 0;
-            for (std::size_t t = 0; t < kLanes; ++t) sides[t] = out.members[c] >> t & 1 ? all : 0;
-        } else {
-            kernel.face(frame.clusters[c], lanes, backs != 0, sides);
-            if (f.above != used || (backs != 0 && backs != 0xffffu))
-                for (std::size_t t = 0; t < kLanes; ++t) sides[t] &= seen;
-            if ((out.members[c] & full) != full)
-                for (std::size_t t = 0; t < kLanes; ++t) sides[t] = out.members[c] >> t & 1 ? sides[t] : 0;
-        }
+        std::uint32_t some = (f.facing | f.away << 16) & seen;
+        if (!uniform)
+            some = kernel.face(frame.clusters[c], lanes, seen, out.members[c], out.own.data() + kLanes * c, sides);
+        else
+            for (std::size_t t = 0; t < kLanes; ++t) sides[t] = out.members[c] >> t & 1 ? some : 0;
         out.skip[c] = uniform && (out.members[c] & full) == full;
-        for (std::uint32_t left = f.overhead & used; left; left &= left - 1) {
+        for (std::uint32_t left = f.overhead & (some | some >> 16) & used; left; left &= left - 1) {
             const int k = __builtin_ctz(left);
             out.poles[k] += kernel.overhead(frame.clusters[c], receivers[static_cast<std::size_t>(k)], k, sides);
         }
     }
+    markOwn(false);
     kernel.differ(edges_, out.sides.data(), out.skip.data(), out.differing);
-    kernel.rise(frame.edges.data(), lanes, out.differing);
-    kernel.deal(out.differing, out.dealt);
-}
-
-void SilhouetteMesh::addUnder(std::span<const std::uint32_t> corners, std::size_t receiver, Seen& seen) const {
-    std::uint32_t* items = seen.dealt.items.data() + receiver * seen.dealt.room;
-    for (const std::uint32_t corner : corners)
-        items[seen.dealt.counts[receiver]++] =
-            8 * edgesOf_[slots_[0][corner / 3]][static_cast<int>((corner + 1) % 3)] + DealtEdges::kUnder;
+    kernel.deal(frame.edges.data(), lanes, out.differing, out.dealt);
+    // The triangles at a receiver span no solid angle, but hide all that lies under them.
+    for (std::size_t k = 0; k < receivers.size(); ++k) {
+        std::uint32_t* items = out.dealt.items.data() + k * out.dealt.room;
+        for (const std::uint32_t corner : corners[k])
+            items[out.dealt.counts[k]++] =
+                8 * edgesOf_[slots_[0][corner / 3]][static_cast<int>((corner + 1) % 3)] + DealtEdges::kUnder;
+    }
 }
 
 bool SilhouetteMesh::Seen::faces(std::size_t cluster) const {

@@ -28,7 +28,8 @@ public:
     struct Seen {
         std::vector<std::uint32_t> members;  ///< [cluster] the triangles that are listed, as bits: see's input
         std::vector<ClusterFlags> flags;     ///< [cluster]
-        std::vector<std::uint8_t> skip;      ///< [cluster]
+        std::vector<std::uint8_t> skip;      ///< [cluster] whether all its edges inside are alike
+        std::vector<std::uint32_t> own;      ///< [place] receivers that the triangle meets
         std::vector<std::uint32_t> sides;    ///< [cluster][16] as SilhouetteKernel::face; one more, of what isn't there
         DifferingEdges differing;
         DealtEdges dealt;
@@ -39,9 +40,11 @@ public:
 
     SilhouetteMesh() = default;
     /// \param levels  triangles by the numbers of points  \param points  at rest, by which clusters are made
-    /// \param backs  [level][triangle]
+    /// \param backs  [level][triangle]  \param patches  [level][triangle] of neighbours in space, whose triangles are
+    /// listed together; empty: any may be
     SilhouetteMesh(std::span<const std::vector<glm::uvec3>> levels, std::span<const glm::vec3> points,
-                   std::span<const std::vector<BackSides>> backs);
+                   std::span<const std::vector<BackSides>> backs,
+                   std::span<const std::vector<std::uint32_t>> patches = {});
 
     /// The parts of clusters that some triangles of a level are.
     std::vector<Part> partsOf(std::size_t level, std::span<const std::uint32_t> triangles) const;
@@ -50,13 +53,10 @@ public:
     void place(std::span<const glm::vec3> points, unsigned threads, Frame& out) const;
 
     /// The edges that bound what out.members hide from each receiver.
+    /// \param corners  [receiver][] of the triangles of level 0 that meet there, 3 × triangle + corner
     /// \param inside  bits of the receivers that see Inside backs
     void see(const Frame& frame, const SilhouetteKernel& kernel, std::span<const Receiver> receivers,
-             std::uint32_t inside, Seen& out) const;
-
-    /// Adds what the triangles at a receiver hide: they span no solid angle, but all that lies under them.
-    /// \param corners  [3 × triangle + corner] of level 0 that the receiver is at; to be called after see
-    void addUnder(std::span<const std::uint32_t> corners, std::size_t receiver, Seen& seen) const;
+             std::span<const std::span<const std::uint32_t>> corners, std::uint32_t inside, Seen& out) const;
 
     std::size_t clusterCount() const { return clusters_.size(); }
     std::size_t triangleCount() const { return triangleCount_; }
@@ -64,11 +64,12 @@ public:
 
 private:
     struct Cluster {
-        std::size_t level = 0;
         std::uint32_t count = 0;  ///< triangles
         BackSides backs = BackSides::None;
     };
     void placeCluster(std::span<const glm::vec3> points, std::size_t cluster, TriangleCluster& out) const;
+    void addCluster(std::size_t level, const std::vector<glm::uvec3>& triangles, std::span<const std::uint32_t> some,
+                    BackSides backs);
     void joinEdges();
 
     std::vector<glm::uvec3> triangles_;  ///< [cluster][16]

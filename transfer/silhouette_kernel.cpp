@@ -1,6 +1,5 @@
 #include "transfer/silhouette_kernel.hpp"
 
-#include <algorithm>
 #include <cstring>
 #include <stdexcept>
 #include <string>
@@ -19,13 +18,13 @@ SilhouetteKernel kernelOf([[maybe_unused]] VectorSet set) {
 #if defined(__x86_64__)
     if (set == VectorSet::Avx512)
         return {avx512::classify, avx512::face, avx512::differ, avx512::overhead,
-                avx512::rise,     avx512::deal, avx512::add<N>, avx512::finish<N>};
+                    avx512::deal, avx512::add<N>, avx512::finish<N>};
     if (set == VectorSet::Avx2)
         return {avx2::classify, avx2::face, avx2::differ, avx2::overhead,
-                avx2::rise,     avx2::deal, avx2::add<N>, avx2::finish<N>};
+                    avx2::deal, avx2::add<N>, avx2::finish<N>};
 #endif
     return {plain::classify, plain::face, plain::differ, plain::overhead,
-            plain::rise,     plain::deal, plain::add<N>, plain::finish<N>};
+                plain::deal, plain::add<N>, plain::finish<N>};
 }
 
 }  // namespace
@@ -44,6 +43,7 @@ ReceiverLanes receiverLanes(std::span<const Receiver> receivers) {
             out.bitangent[c][k] = r.bitangent[c];
             out.normal[c][k] = r.normal[c];
         }
+        out.height[k] = r.normal.x * r.point.x + r.normal.y * r.point.y + r.normal.z * r.point.z;
     }
     return out;
 }

@@ -30,6 +30,7 @@ struct TriangleCluster {
 /// Sixteen receivers side by side. Those that aren't used repeat the first.
 struct ReceiverLanes {
     alignas(64) float point[3][kLanes], tangent[3][kLanes], bitangent[3][kLanes], normal[3][kLanes];
+    float height[kLanes];  ///< of the points along the normals
 };
 ReceiverLanes receiverLanes(std::span<const Receiver> receivers);
 
@@ -43,8 +44,9 @@ struct ClusterFlags {
 /// below the horizon, and how many hide the pole. A direction is hidden where the sum from the pole is positive.
 inline std::size_t layerCounts(int size) { return static_cast<std::size_t>(size) * static_cast<std::size_t>(size + 1); }
 
-/// A triangle seen from p counts as facing when p is farther in front of it: those at the vertex itself don't.
-inline constexpr float kFacing = 1e-6f;
+/// A triangle faces a point that is farther in front of it [of the extent]: on which side of it nearer ones are,
+/// rounding decides, and in a receiver's frame perhaps otherwise.
+inline constexpr float kFacing = 1e-7f;
 
 /// A mesh's edges by the places of the triangles on their two sides; an edge runs along `a` as that stands and along
 /// `b` reversed. First those inside clusters, [cluster] from firstInside[cluster] on, then those between clusters and
@@ -73,18 +75,19 @@ struct DealtEdges {
 
 struct SilhouetteKernel {
     ClusterFlags (*classify)(const TriangleCluster& cluster, const ReceiverLanes& receivers);
-    /// Low sixteen bits of `out`: for which receivers the triangle faces; if `backs` high ones: to which it turns its
-    /// back.
-    void (*face)(const TriangleCluster& cluster, const ReceiverLanes& receivers, bool backs, std::uint32_t* out);
+    /// Low sixteen bits of `out`: for which receivers the triangle faces; high ones: to which it turns its back. Of
+    /// `seen`'s bits alone, without those of own[triangle], and of the triangles in `members`: the others' are 0.
+    /// \return  all triangles' together
+    std::uint32_t (*face)(const TriangleCluster& cluster, const ReceiverLanes& receivers, std::uint32_t seen,
+                          std::uint32_t members, const std::uint32_t* own, std::uint32_t* out);
     /// \param sides  [place] as face has it  \param skip  [cluster] whether all edges inside are alike
     void (*differ)(const EdgeSides& edges, const std::uint32_t* sides, const std::uint8_t* skip, DifferingEdges& out);
     /// How many of the triangles that face (as face has it) receiver `lane`, or turn their back to it, hide its pole.
     std::int32_t (*overhead)(const TriangleCluster& cluster, const Receiver& receiver, int lane,
                              const std::uint32_t* faces);
-    /// Leaves only the receivers over whose horizon an end of the edge is, and edges that have some.
-    void (*rise)(const EdgeRow* edges, const ReceiverLanes& receivers, DifferingEdges& differing);
-    /// Adds the edges to their receivers' items.
-    void (*deal)(const DifferingEdges& edges, DealtEdges& out);
+    /// Adds the edges to the items of their receivers, where an end is over the receiver's horizon.
+    void (*deal)(const EdgeRow* edges, const ReceiverLanes& receivers, const DifferingEdges& differing,
+                 DealtEdges& out);
     /// Adds the layers that edges bound. \param items  as DealtEdges has them, room for 15 more behind
     void (*add)(const MaskRows& rows, const EdgeRow* edges, const Receiver& receiver, std::uint32_t* items,
                 std::size_t count, std::int8_t* layers);

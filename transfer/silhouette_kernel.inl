@@ -17,21 +17,30 @@ ClusterFlags classify(const TriangleCluster& b, const ReceiverLanes& receivers) 
 }
 
 template <bool kBacks>
-NACRE_INLINE void faceSides(const TriangleCluster& cluster, const ReceiverLanes& receivers, std::uint32_t* out) {
-    const Columns point = columnsOf(receivers.point);
-    for (int t = 0; t < kLanes; ++t) {
-        const glm::vec3 n(cluster.normal[0][t], cluster.normal[1][t], cluster.normal[2][t]);
-        const Floats front = dot(n, point) - splat(cluster.offset[t]);
-        out[t] = lanes(front > splat(kFacing));
-        if (kBacks) out[t] |= lanes(front < splat(-kFacing)) << 16;
+NACRE_INLINE Bits facesOf(const TriangleCluster& cluster, const ReceiverLanes& receivers) {
+    const Columns n{load(cluster.normal[0]), load(cluster.normal[1]), load(cluster.normal[2])};
+    const Floats offset = load(cluster.offset), least = splat(kFacing);
+    Bits sides{};
+    for (int k = 0; k < kLanes; ++k) {
+        const glm::vec3 p(receivers.point[0][k], receivers.point[1][k], receivers.point[2][k]);
+        const Floats front = dot(p, n) - offset;
+        sides |= as<Bits>(front > least) & (1u << k);
+        if (kBacks) sides |= as<Bits>(front < -least) & (0x10000u << k);
     }
+    return sides;
 }
 
-void face(const TriangleCluster& cluster, const ReceiverLanes& receivers, bool backs, std::uint32_t* out) {
-    if (backs)
-        faceSides<true>(cluster, receivers, out);
-    else
-        faceSides<false>(cluster, receivers, out);
+std::uint32_t face(const TriangleCluster& cluster, const ReceiverLanes& receivers, std::uint32_t seen, std::uint32_t members,
+                   const std::uint32_t* own, std::uint32_t* out) {
+    Bits excepted;
+    std::memcpy(&excepted, own, sizeof(excepted));
+    Bits sides = ~excepted & (seen >> 16 ? facesOf<true>(cluster, receivers) : facesOf<false>(cluster, receivers)) & seen;
+    if (members != 0xffff)
+        for (int t = 0; t < kLanes; ++t) sides[t] = members >> t & 1 ? sides[t] : 0;
+    store(out, sides);
+    std::uint32_t all = 0;
+    for (int t = 0; t < kLanes; ++t) all |= sides[t];
+    return all;
 }
 
 #if NACRE_SET == 512
@@ -75,23 +84,6 @@ void differ(const EdgeSides& edges, const std::uint32_t* sides, const std::uint8
 #endif
 }
 
-void rise(const EdgeRow* edges, const ReceiverLanes& receivers, DifferingEdges& differing) {
-    const Columns point = columnsOf(receivers.point), normal = columnsOf(receivers.normal);
-    const Floats height = dot(normal, point);
-    std::size_t kept = 0;
-    for (std::size_t i = 0; i < differing.count; ++i) {
-        const EdgeRow& edge = edges[differing.edge[i]];
-        const Floats p = dot(glm::vec3(edge.p[0], edge.p[1], edge.p[2]), normal), q = dot(glm::vec3(edge.q[0], edge.q[1], edge.q[2]), normal);
-        const std::uint32_t above = lanes(larger(p, q) > height), some = differing.sides[i] & (above | above << 16);
-        differing.edge[kept] = differing.edge[i];
-        differing.sides[kept] = some;
-        differing.first[kept] = differing.first[i];
-        kept += some != 0;
-    }
-    differing.count = kept;
-    for (std::vector<std::uint32_t>* column : {&differing.edge, &differing.sides, &differing.first}) std::fill_n(column->data() + kept, kLanes, 0u);
-}
-
 /// Twice the area of the pole and an edge, seen along the pole.
 NACRE_INLINE Floats turning(const Floats& x0, const Floats& y0, const Floats& x1, const Floats& y1) { return x0 * y1 - x1 * y0; }
 
@@ -126,35 +118,43 @@ std::int32_t overhead(const TriangleCluster& cluster, const Receiver& receiver, 
     return __builtin_popcount(lanes(front) | lanes(back));
 }
 
-void deal(const DifferingEdges& edges, DealtEdges& out) {
+void deal(const EdgeRow* rows, const ReceiverLanes& receivers, const DifferingEdges& edges, DealtEdges& out) {
     // A front on the edge's first side hides the same side of it as a back on its other.
-#if NACRE_SET == 512
     for (std::size_t i = 0; i < edges.count; i += kWide) {
         Bits edge, sides, first;
         std::memcpy(&edge, edges.edge.data() + i, sizeof(edge));
         std::memcpy(&sides, edges.sides.data() + i, sizeof(sides));
         std::memcpy(&first, edges.first.data() + i, sizeof(first));
-        const Bits item = edge << 3, backs = sides >> 16, anySides = sides | backs, twice = (sides & backs) << 1;
+        const float* from[kWide];
+        for (std::size_t k = 0; k < kWide; ++k) from[k] = rows[edges.edge[i + k]].p;
+        Floats v[8];
+        gather<8>(from, v);
+        const Columns p{v[0], v[1], v[2]}, q{v[4], v[5], v[6]};
+        const Bits item = edge << 3, backs = sides >> 16, either = sides | backs, twice = (sides & backs) << 1;
         const bool some = any(as<Mask>(backs));
         const Bits other = some ? (~first & sides) | (first >> 16 & backs) : ~first;
+#if NACRE_SET == 512
+        for (std::size_t k = 0; k < kLanes; ++k) {
+            const glm::vec3 n(receivers.normal[0][k], receivers.normal[1][k], receivers.normal[2][k]);
+            const Floats height = larger(dot(n, p), dot(n, q));
+            const __m512i bit = _mm512_set1_epi32(1 << k), items = as<__m512i>(item), one = _mm512_set1_epi32(DealtEdges::kOther);
+            const __mmask16 above = _mm512_cmp_ps_mask(as<__m512>(height), _mm512_set1_ps(receivers.height[k]), _CMP_GT_OQ);
+            const __mmask16 to = _mm512_mask_test_epi32_mask(above, as<__m512i>(either), bit);
+            __m512i value = _mm512_mask_or_epi32(items, _mm512_test_epi32_mask(as<__m512i>(other), bit), items, one);
+            if (some) value = _mm512_or_si512(value, _mm512_and_si512(_mm512_srli_epi32(as<__m512i>(twice), static_cast<unsigned>(k)), _mm512_set1_epi32(DealtEdges::kTwice)));
+            out.counts[k] = append(out.items.data() + k * out.room, out.counts[k], value, to);
+        }
+#else
         for (std::size_t k = 0; k < kLanes; ++k) {
             const auto bit = static_cast<unsigned>(k);
+            const glm::vec3 n(receivers.normal[0][k], receivers.normal[1][k], receivers.normal[2][k]);
+            const Mask above = larger(dot(n, p), dot(n, q)) > splat(receivers.height[k]);
             Bits value = item | (other >> bit & DealtEdges::kOther);
             if (some) value |= twice >> bit & DealtEdges::kTwice;
-            out.counts[k] = append(out.items.data() + k * out.room, out.counts[k], value, lanes(as<Mask>(anySides << (31 - bit))));
+            out.counts[k] = append(out.items.data() + k * out.room, out.counts[k], value, lanes(above & as<Mask>(either << (31 - bit))));
         }
-    }
-#else
-    for (std::size_t i = 0; i < edges.count; ++i) {
-        const std::uint32_t sides = edges.sides[i], backs = sides >> 16;
-        const std::uint32_t other = (~edges.first[i] & sides) | (edges.first[i] >> 16 & backs), twice = (sides & backs) << 1;
-        for (std::uint32_t left = (sides | backs) & 0xffff; left; left &= left - 1) {
-            const int k = __builtin_ctz(left);
-            const auto lane = static_cast<std::size_t>(k);
-            out.items[lane * out.room + out.counts[lane]++] = 8 * edges.edge[i] | (other >> k & DealtEdges::kOther) | (twice >> k & DealtEdges::kTwice);
-        }
-    }
 #endif
+    }
 }
 
 /// The number of rows whose middles lie between azimuth 0 and that of (x, y), −N/2 to N/2: rows begin ≤ r < end are those
