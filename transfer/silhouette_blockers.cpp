@@ -4,6 +4,7 @@
 #include <cmath>
 #include <map>
 #include <tuple>
+#include <utility>
 
 #include "core/parallel.hpp"
 
@@ -74,7 +75,8 @@ void SilhouetteMesh::joinEdges() {
     struct Edge {
         glm::uvec2 ends;
         HalfEdge a, b;
-        std::uint32_t cluster;  ///< that both sides lie in, else their count
+        std::uint32_t cluster() const { return a.slot / kLanes; }
+        bool inside() const { return b.slot / kLanes == cluster(); }
     };
     std::vector<Edge> edges;
     for (auto& [ends, of] : halves)
@@ -83,38 +85,49 @@ void SilhouetteMesh::joinEdges() {
             of.pop_back();
             const auto b =
                 std::find_if(of.begin(), of.end(), [&](const HalfEdge& h) { return h.forwards != a.forwards; });
-            Edge edge{{ends.first, ends.second}, a, {none, 0, false}, static_cast<std::uint32_t>(clusters_.size())};
+            Edge edge{{ends.first, ends.second}, a, {none, 0, false}};
             if (!a.forwards) std::swap(edge.ends.x, edge.ends.y);
             if (b != of.end()) {
                 edge.b = *b;
-                if (b->slot / kLanes == a.slot / kLanes) edge.cluster = a.slot / kLanes;
                 of.erase(b);
             }
             edges.push_back(edge);
         }
     std::sort(edges.begin(), edges.end(), [](const Edge& x, const Edge& y) {
-        return std::tie(x.cluster, x.a.slot, x.a.corner) < std::tie(y.cluster, y.a.slot, y.a.corner);
+        return std::tuple(x.cluster(), !x.inside(), x.a.slot, x.a.corner) <
+               std::tuple(y.cluster(), !y.inside(), y.a.slot, y.a.corner);
     });
     edgesOf_.assign(none, glm::uvec3(0));
-    const auto pad = [&] {
+    borders_.resize(clusters_.size());
+    auto next = edges.begin();
+    const auto take = [&](std::uint32_t cluster, bool inside) {
+        const auto first = static_cast<std::uint32_t>(ends_.size());
+        for (; next != edges.end() && next->cluster() == cluster && next->inside() == inside; ++next) {
+            const auto i = static_cast<std::uint32_t>(ends_.size());
+            edgesOf_[next->a.slot][next->a.corner] = i;
+            if (next->b.slot != none) {
+                edgesOf_[next->b.slot][next->b.corner] = i;
+                if (!inside) borders_[next->b.slot / kLanes].push_back(cluster);
+            }
+            ends_.push_back(next->ends);
+            edges_.a.push_back(next->a.slot);
+            edges_.b.push_back(next->b.slot);
+        }
         while (ends_.size() % kLanes) {
             ends_.emplace_back(0, 0);
             edges_.a.push_back(none);
             edges_.b.push_back(none);
         }
+        return first;
     };
-    auto next = edges.begin();
-    for (std::uint32_t c = 0; c <= clusters_.size(); ++c) {
-        edges_.firstInside.push_back(static_cast<std::uint32_t>(ends_.size()));
-        for (; next != edges.end() && next->cluster == c; ++next) {
-            const auto i = static_cast<std::uint32_t>(ends_.size());
-            edgesOf_[next->a.slot][next->a.corner] = i;
-            if (next->b.slot != none) edgesOf_[next->b.slot][next->b.corner] = i;
-            ends_.push_back(next->ends);
-            edges_.a.push_back(next->a.slot);
-            edges_.b.push_back(next->b.slot);
-        }
-        pad();
+    for (std::uint32_t c = 0; c < clusters_.size(); ++c) {
+        edges_.inside.push_back(take(c, true));
+        edges_.between.push_back(take(c, false));
+    }
+    edges_.inside.push_back(static_cast<std::uint32_t>(ends_.size()));
+    for (std::vector<std::uint32_t>& some : borders_) {
+        std::sort(some.begin(), some.end());
+        some.erase(std::unique(some.begin(), some.end()), some.end());
     }
 }
 
@@ -183,7 +196,6 @@ void SilhouetteMesh::see(const Frame& frame, const SilhouetteKernel& kernel, std
                          Seen& out) const {
     const ReceiverLanes lanes = receiverLanes(receivers);
     const std::uint32_t used = (1u << receivers.size()) - 1;
-    out.flags.resize(clusters_.size());
     out.sides.resize(triangles_.size() + 1);
     out.sides.back() = 0;
     out.differing.resize(ends_.size());
@@ -200,19 +212,20 @@ void SilhouetteMesh::see(const Frame& frame, const SilhouetteKernel& kernel, std
             }
     };
     markOwn(true);
-    out.skip.assign(clusters_.size(), 1);
+    out.look.assign(clusters_.size(), 0);
+    out.seen.resize(clusters_.size(), 1);
     for (std::size_t c = 0; c < clusters_.size(); ++c) {
-        ClusterFlags& f = out.flags[c];
         std::uint32_t* sides = out.sides.data() + kLanes * c;
-        f.above = 0;
-        if (out.members[c]) {
-            f = kernel.classify(frame.clusters[c], lanes);
-            f.above &= used;
-        }
+        ClusterFlags f = {};
+        if (out.members[c]) f = kernel.classify(frame.clusters[c], lanes);
+        f.above &= used;
         if (!f.above) {
-            std::fill_n(sides, kLanes, 0u);
+            if (std::exchange(out.seen[c], 0)) std::fill_n(sides, kLanes, 0u);
             continue;
         }
+        out.seen[c] = 1;
+        out.look[c] |= kBetween;
+        for (const std::uint32_t other : borders_[c]) out.look[other] |= kBetween;
         const Cluster& cluster = clusters_[c];
         const std::uint32_t full = (1u << cluster.count) - 1;
         const std::uint32_t backs = cluster.backs == BackSides::All    ? 0xffffu
@@ -225,14 +238,14 @@ void SilhouetteMesh::see(const Frame& frame, const SilhouetteKernel& kernel, std
             some = kernel.face(frame.clusters[c], lanes, seen, out.members[c], out.own.data() + kLanes * c, sides);
         else
             for (std::size_t t = 0; t < kLanes; ++t) sides[t] = out.members[c] >> t & 1 ? some : 0;
-        out.skip[c] = uniform && (out.members[c] & full) == full;
+        if (!uniform || (out.members[c] & full) != full) out.look[c] |= kInside;
         for (std::uint32_t left = f.overhead & (some | some >> 16) & used; left; left &= left - 1) {
             const int k = __builtin_ctz(left);
             out.poles[k] += kernel.overhead(frame.clusters[c], receivers[static_cast<std::size_t>(k)], k, sides);
         }
     }
     markOwn(false);
-    kernel.differ(edges_, out.sides.data(), out.skip.data(), out.differing);
+    kernel.differ(edges_, out.sides.data(), out.look.data(), out.differing);
     kernel.deal(frame.edges.data(), lanes, out.differing, out.dealt);
     // The triangles at a receiver span no solid angle, but hide all that lies under them.
     for (std::size_t k = 0; k < receivers.size(); ++k) {
@@ -250,7 +263,8 @@ bool SilhouetteMesh::Seen::faces(std::size_t cluster) const {
 
 std::size_t SilhouetteMesh::bytes() const {
     return bytesOf(triangles_) + bytesOf(clusters_) + bytesOf(slots_) + bytesOf(ends_) + bytesOf(edges_.a) +
-           bytesOf(edges_.b) + bytesOf(edges_.firstInside) + bytesOf(edgesOf_);
+           bytesOf(edges_.b) + bytesOf(edges_.inside) + bytesOf(edges_.between) + bytesOf(edgesOf_) +
+           bytesOf(borders_);
 }
 
 }  // namespace nacre

@@ -27,8 +27,8 @@ public:
     /// What a group of up to sixteen receivers sees.
     struct Seen {
         std::vector<std::uint32_t> members;  ///< [cluster] the triangles that are listed, as bits: see's input
-        std::vector<ClusterFlags> flags;     ///< [cluster]
-        std::vector<std::uint8_t> skip;      ///< [cluster] whether all its edges inside are alike
+        std::vector<std::uint8_t> look;      ///< [cluster] as SilhouetteKernel::differ has it
+        std::vector<std::uint8_t> seen;      ///< [cluster] whether some of its sides may not be 0
         std::vector<std::uint32_t> own;      ///< [place] receivers that the triangle meets
         std::vector<std::uint32_t> sides;    ///< [cluster][16] as SilhouetteKernel::face; one more, of what isn't there
         DifferingEdges differing;
@@ -77,6 +77,7 @@ private:
     std::vector<std::vector<std::uint32_t>> slots_;  ///< [level][triangle] its place in triangles_
     std::vector<glm::uvec2> ends_;                   ///< [edge] points
     EdgeSides edges_;
+    std::vector<std::vector<std::uint32_t>> borders_;  ///< [cluster] clusters at which its edges to others lie
     std::vector<glm::uvec3> edgesOf_;  ///< [place] of a triangle's corners c and c + 1
     std::size_t triangleCount_ = 0;
 };

@@ -48,13 +48,16 @@ inline std::size_t layerCounts(int size) { return static_cast<std::size_t>(size)
 /// rounding decides, and in a receiver's frame perhaps otherwise.
 inline constexpr float kFacing = 1e-7f;
 
-/// A mesh's edges by the places of the triangles on their two sides; an edge runs along `a` as that stands and along
-/// `b` reversed. First those inside clusters, [cluster] from firstInside[cluster] on, then those between clusters and
-/// bare ones, all in sixteens: where there are fewer, a = b.
+/// A mesh's edges by the places of the triangles on their two sides; an edge runs along `a` as that stands and along `b`
+/// reversed. Cluster c's own lie from inside[c] to between[c], those to others and bare ones, each at one of its two
+/// clusters, from there to inside[c + 1]. All in sixteens: where there are fewer, a = b.
 struct EdgeSides {
     std::vector<std::uint32_t> a, b;
-    std::vector<std::uint32_t> firstInside;  ///< one more than clusters: there those between begin
+    std::vector<std::uint32_t> inside;  ///< one more than clusters
+    std::vector<std::uint32_t> between;
 };
+
+inline constexpr std::uint8_t kInside = 1, kBetween = 2;
 
 /// Edges by the receivers for which their two sides differ, room for 15 more behind.
 struct DifferingEdges {
@@ -80,8 +83,8 @@ struct SilhouetteKernel {
     /// \return  all triangles' together
     std::uint32_t (*face)(const TriangleCluster& cluster, const ReceiverLanes& receivers, std::uint32_t seen,
                           std::uint32_t members, const std::uint32_t* own, std::uint32_t* out);
-    /// \param sides  [place] as face has it  \param skip  [cluster] whether all edges inside are alike
-    void (*differ)(const EdgeSides& edges, const std::uint32_t* sides, const std::uint8_t* skip, DifferingEdges& out);
+    /// \param sides  [place] as face has it  \param look  [cluster] kInside and kBetween for edges that may differ
+    void (*differ)(const EdgeSides& edges, const std::uint32_t* sides, const std::uint8_t* look, DifferingEdges& out);
     /// How many of the triangles that face (as face has it) receiver `lane`, or turn their back to it, hide its pole.
     std::int32_t (*overhead)(const TriangleCluster& cluster, const Receiver& receiver, int lane,
                              const std::uint32_t* faces);

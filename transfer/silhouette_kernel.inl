@@ -53,20 +53,21 @@ NACRE_INLINE void addDiffering(std::size_t edge, const __m512i& a, const __m512i
 }
 #endif
 
-void differ(const EdgeSides& edges, const std::uint32_t* sides, const std::uint8_t* skip, DifferingEdges& out) {
+void differ(const EdgeSides& edges, const std::uint32_t* sides, const std::uint8_t* look, DifferingEdges& out) {
     out.count = 0;
+    const std::size_t clusters = edges.between.size();
 #if NACRE_SET == 512
-    const std::size_t clusters = edges.firstInside.size() - 1;
-    for (std::size_t c = 0; c < clusters; ++c) {
-        if (skip[c]) continue;
-        const __m512i own = _mm512_loadu_si512(sides + kLanes * c);  // places modulo 16 are lanes
-        for (std::size_t e = edges.firstInside[c]; e < edges.firstInside[c + 1]; e += kWide)
-            addDiffering(e, _mm512_permutexvar_epi32(_mm512_loadu_si512(&edges.a[e]), own), _mm512_permutexvar_epi32(_mm512_loadu_si512(&edges.b[e]), own), out);
-    }
     const __m512i zero = _mm512_setzero_si512();
-    for (std::size_t e = edges.firstInside[clusters]; e < edges.a.size(); e += kWide)
-        addDiffering(e, _mm512_mask_i32gather_epi32(zero, 0xffff, _mm512_loadu_si512(&edges.a[e]), sides, 4), _mm512_mask_i32gather_epi32(zero, 0xffff, _mm512_loadu_si512(&edges.b[e]), sides, 4), out);
-    for (std::vector<std::uint32_t>* column : {&out.edge, &out.sides, &out.first}) _mm512_storeu_si512(column->data() + out.count, zero);
+    for (std::size_t c = 0; c < clusters; ++c) {
+        if (look[c] & kInside) {
+            const __m512i own = _mm512_loadu_si512(sides + kLanes * c);  // places modulo 16 are lanes
+            for (std::size_t e = edges.inside[c]; e < edges.between[c]; e += kWide)
+                addDiffering(e, _mm512_permutexvar_epi32(_mm512_loadu_si512(&edges.a[e]), own), _mm512_permutexvar_epi32(_mm512_loadu_si512(&edges.b[e]), own), out);
+        }
+        if (look[c] & kBetween)
+            for (std::size_t e = edges.between[c]; e < edges.inside[c + 1]; e += kWide)
+                addDiffering(e, _mm512_mask_i32gather_epi32(zero, 0xffff, _mm512_loadu_si512(&edges.a[e]), sides, 4), _mm512_mask_i32gather_epi32(zero, 0xffff, _mm512_loadu_si512(&edges.b[e]), sides, 4), out);
+    }
 #else
     const auto add = [&](std::size_t first, std::size_t end) {
         for (std::size_t e = first; e < end; ++e) {
@@ -77,11 +78,12 @@ void differ(const EdgeSides& edges, const std::uint32_t* sides, const std::uint8
             out.count += some != 0;
         }
     };
-    const std::size_t clusters = edges.firstInside.size() - 1;
-    for (std::size_t c = 0; c < clusters; ++c)
-        if (!skip[c]) add(edges.firstInside[c], edges.firstInside[c + 1]);
-    add(edges.firstInside[clusters], edges.a.size());
+    for (std::size_t c = 0; c < clusters; ++c) {
+        if (look[c] & kInside) add(edges.inside[c], edges.between[c]);
+        if (look[c] & kBetween) add(edges.between[c], edges.inside[c + 1]);
+    }
 #endif
+    for (std::vector<std::uint32_t>* column : {&out.edge, &out.sides, &out.first}) std::memset(column->data() + out.count, 0, sizeof(Bits));
 }
 
 /// Twice the area of the pole and an edge, seen along the pole.
