@@ -98,7 +98,7 @@ VisibleSets visibleSets(const SelfTransfer& transfer, const TransferPlan& plan,
     VisibleSets sets;
     if (std::filesystem::exists(plan.visibleSets, ignored)) {
         sets = readVisibleSets(plan.visibleSets);
-        if (sets.key != transfer.key() || sets.groups != transfer.groupCount() || sets.rows != transfer.clusterCount())
+        if (sets.key != transfer.key() || sets.groups != transfer.groupCount() || sets.rows != transfer.placeCount())
             throw Error(fmt::format("{}: expected visible sets of this mesh with these levels of detail, found others",
                                     plan.visibleSets));
         for (const NumberedFrame& frame : frames)

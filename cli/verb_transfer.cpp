@@ -27,6 +27,8 @@ struct Settings {
     std::string model, output, clip, ply, sides = "auto", vectors = "widest", weights;
     TransferPlan plan;  ///< end 0: all
     std::optional<int> rings{};
+    std::optional<std::size_t> coarse{};
+    bool lodAngle = false;   ///< given
     std::string notWithLut;  ///< the first option given that the paper's method has no use for
     TransferLight light;
     std::size_t rays = 0;  ///< 0: no reference
@@ -162,8 +164,11 @@ std::string text(const Settings& s, const TransferRun& run, const json& data) {
                     run.reused, r.vertexCount(), r.triangles.size(), r.order, humanBytes(data["bytes"]));
     out += fmt::format("  speed       {:.4g} vertices/s, {:.4g} frames/s\n", data["vertices_per_second"].get<double>(),
                        data["frames_per_second"].get<double>());
-    out += fmt::format("  blockers    {:.1f} listed a vertex, {:.1f} drawn; coarsest level {} triangles, {} sides\n",
-                       run.listed, run.drawn, run.coarseTriangles, nameOf(run.sides));
+    out += fmt::format("  blockers    {:.1f} triangles listed a vertex, {:.1f} {} drawn; {}, {} sides\n", run.listed,
+                       run.drawn, s.plan.lut ? "of them" : "edges",
+                       s.plan.options.coarse == 0 ? "no levels"
+                                                  : fmt::format("coarsest level {} triangles", run.coarseTriangles),
+                       nameOf(run.sides));
     if (run.bytes > 0)
         out += fmt::format("  memory      {} a vertex beside the tables\n",
                            humanBytes(data["memory"]["bytes_per_vertex"].get<std::size_t>()));
@@ -197,6 +202,9 @@ void runTransferVerb(const Context& context, Settings s) {
     if (s.plan.gloss && !s.plan.visibleSets.empty())
         throw UsageError("--glossy: expected no --pvs, which is for matt transfer");
     s.plan.options.rings = s.rings.value_or(s.plan.lut ? PaperMethodOptions{}.rings : SelfTransferOptions{}.rings);
+    // Who asks how levels are to be used wants some.
+    const bool levels = s.plan.lut || s.rings || s.lodAngle;
+    s.plan.options.coarse = s.coarse.value_or(levels ? kUsualCoarse : SelfTransferOptions{}.coarse);
     s.plan.options.sides = sidesOf(s.sides);
     if (s.plan.lut && s.plan.options.sides == BlockingSides::Fine)
         throw UsageError("--sides: expected auto, front or both with --lut, found 'fine'");
@@ -258,7 +266,8 @@ constexpr const char* kDetails =
     "and the exit code is 1.\n"
     "With --glossy N, V is (1 - S) of the matt one + S that of (N + 2)/2pi (r.s)^N about the mirrored view r.\n"
     "Speed is wall time of the computation alone, after a frame to warm up; the split is CPU time of all threads.\n"
-    "Transform: moving and listing blockers, and culling them; lobes count as rasterization. Error: mean over vertices "
+    "Transform: moving and listing blockers, and finding their silhouettes; lobes count as rasterization. Blockers: "
+    "triangles that may block the vertex; drawn are the silhouettes' edges (with --lut triangles). Error: mean over vertices "
     "of |V - truth| / |truth|, "
     "with "
     "truth\n"
@@ -293,14 +302,18 @@ std::vector<Option> options(const std::shared_ptr<Settings>& s) {
         {"--order", "L", "Highest band of the harmonics, 0 to 6 (default 4: 25 coefficients)",
          own("--order",
              integerInto([s](long long v) { s->plan.options.order = static_cast<int>(v); }, 0, kMaxTransferOrder))},
-        {"--rings", "R", "The mesh itself blocks within so many rings of triangles, 1 or 2 (default 1; with --lut 2)",
+        {"--rings", "R", "With levels, the mesh itself blocks within so many rings of triangles, 1 or 2 (default 1; with --lut 2)",
          integerInto([s](long long v) { s->rings = static_cast<int>(v); }, 1, 2)},
         {"--coarse", "N",
-         "Triangles of the coarsest level of detail, about (default 300); 0: the mesh itself everywhere",
-         integerInto([s](long long v) { s->plan.options.coarse = static_cast<std::size_t>(v); }, 0, 1 << 30)},
+         "Triangles of the coarsest level of detail, about: faster on meshes of over 10000 triangles, at more error "
+         "(default 0: the mesh itself everywhere; with --rings, --lod-angle or --lut 300)",
+         integerInto([s](long long v) { s->coarse = static_cast<std::size_t>(v); }, 0, 1 << 30)},
         {"--lod-angle", "RAD",
-         "A level is used where it is off by less, seen from the vertex (default 0.25: 1 to 2 % error; 0.6: about 3 %)",
-         own("--lod-angle", positiveInto([s](double v) { s->plan.options.lodAngle = v; }))},
+         "A level is used where it is off by less, seen from the vertex (default 0.25: 1 to 2.5 % error)",
+         own("--lod-angle", positiveInto([s](double v) {
+                 s->plan.options.lodAngle = v;
+                 s->lodAngle = true;
+             }))},
         {"--pvs", "FILE",
          "Potentially visible sets: read from FILE, or made from these frames and written there; blockers that no "
          "frame draws aren't listed",

@@ -89,7 +89,7 @@ struct SelfTransfer::State {
     void makeSilhouettes(std::span<const glm::vec3> rest);
     std::size_t listBlockers(const FrameBlockers& blockers, const GroupBounds& bounds, std::size_t group,
                              const BlockerSets& sets, Scratch& scratch) const;
-    std::size_t setWords() const { return (silhouettes.clusterCount() + 63) / 64; }
+    std::size_t setWords() const { return (kLanes * silhouettes.clusterCount() + 63) / 64; }
     std::size_t draw(std::size_t lane, const SilhouetteMesh::Frame& frame, Scratch& scratch) const;
     GroupResult computeGroup(std::size_t group, std::span<const std::uint32_t> vertices, const FrameBlockers& blockers,
                              std::span<const glm::vec3> positions, const MaskUse& use, const BlockerSets& sets,
@@ -236,7 +236,7 @@ std::size_t SelfTransfer::State::listBlockers(const FrameBlockers& blockers, con
     }
     if (!sets.visible.empty())
         for (std::size_t c = 0; c < members.size(); ++c)
-            if ((sets.visible[group * setWords() + c / 64] >> c % 64 & 1) == 0) members[c] = 0;
+            members[c] &= static_cast<std::uint32_t>(sets.visible[group * setWords() + c / 4] >> c % 4 * kLanes) & 0xffffu;
     std::size_t listed = hidden;
     for (const std::uint32_t some : members) listed += static_cast<std::size_t>(std::popcount(some));
     return listed;
@@ -275,7 +275,7 @@ GroupResult SelfTransfer::State::computeGroup(std::size_t group, std::span<const
     silhouettes.see(blockers.silhouettes, kernel, scratch.receivers, meeting, inside, scratch.seen);
     if (!sets.drawn.empty())
         for (std::size_t c = 0; c < silhouettes.clusterCount(); ++c)
-            if (scratch.seen.faces(c)) sets.drawn[group * setWords() + c / 64] |= std::uint64_t{1} << c % 64;
+            sets.drawn[group * setWords() + c / 4] |= std::uint64_t{scratch.seen.blocking(c)} << c % 4 * kLanes;
     const double listed = now();
     const std::size_t words = maskWords(options.mask);
     scratch.masks.resize(words * vertices.size());
@@ -345,8 +345,8 @@ const SelfTransferOptions& SelfTransfer::options() const { return state_->option
 std::size_t SelfTransfer::coarseTriangles() const { return state_->levels.coarsestTriangles(); }
 
 std::uint32_t SelfTransfer::groupCount() const { return static_cast<std::uint32_t>(state_->groups.size()); }
-std::uint32_t SelfTransfer::clusterCount() const {
-    return static_cast<std::uint32_t>(state_->silhouettes.clusterCount());
+std::uint32_t SelfTransfer::placeCount() const {
+    return static_cast<std::uint32_t>(kLanes * state_->silhouettes.clusterCount());
 }
 
 std::size_t SelfTransfer::bytes() const {

@@ -10,11 +10,13 @@
 
 namespace nacre {
 
+inline constexpr std::size_t kUsualCoarse = 300;  ///< SelfTransferOptions::coarse of who wants levels
+
 struct SelfTransferOptions {
     int mask = 32;             ///< N of N × N bits: 16, 32, 64, 128
     int order = 4;             ///< highest band of harmonics, 0 to 6: (order + 1)² coefficients
-    int rings = 1;             ///< within so many rings of triangles about a vertex the mesh itself blocks: 1 or 2
-    std::size_t coarse = 300;  ///< triangles of the coarsest level, about; 0 = the mesh itself everywhere
+    std::size_t coarse = 0;    ///< triangles of the coarsest level, about; 0 = no levels, the mesh itself everywhere
+    int rings = 1;             ///< with levels, the mesh itself blocks within so many rings of triangles: 1 or 2
     double lodAngle =
         0.25;  ///< [rad] a level is used where it is off by less, seen from the vertex; less where it is dark
     BlockingSides sides = BlockingSides::Auto;
@@ -30,7 +32,7 @@ struct TransferSeconds {
 struct TransferFrame {
     std::vector<float> coefficients;  ///< [vertex][(order + 1)²], world's axes, index l² + l + m; see SelfTransfer
     std::vector<glm::vec3> normals;   ///< unit; 0 where a vertex has none
-    double listed = 0, drawn = 0;     ///< blockers a computed vertex, before and after culling
+    double listed = 0, drawn = 0;     ///< a computed vertex: triangles that may block, edges of silhouettes drawn
     std::size_t computed = 0;         ///< vertices
     TransferSeconds seconds;
 };
@@ -39,8 +41,9 @@ struct TransferFrame {
 /// diffuse f = 1/π (radiance = albedo Σ L_i V_i for radiance coefficients L_i). What is integrated is the share hidden,
 /// taken from the transfer of an open hemisphere, which is known exactly.
 ///
-/// The triangles at a vertex hide what lies below them: they are drawn as skirts, down to the direction −n. Further
-/// blockers come from the level of detail that is close enough.
+/// What is drawn are silhouettes (silhouette_blockers.hpp). The triangles at a vertex hide what lies below them: all that
+/// is under their far edges, down to the direction −n. With levels, further blockers come from the level of detail that
+/// is close enough.
 class SelfTransfer {
 public:
     /// \param rest  positions of a frame by which levels of detail and groups of vertices are made; finite
@@ -55,7 +58,7 @@ public:
     /// point is relative to the frame's extent).
     using MaskUse = std::function<void(std::uint32_t vertex, const Receiver&, std::span<const std::uint32_t> mask)>;
 
-    /// Bits [group][⌈clusters/64⌉] of blockers, for visible_sets.hpp.
+    /// Bits [group][⌈places/64⌉] of triangles, for visible_sets.hpp.
     struct BlockerSets {
         std::span<const std::uint64_t> visible;  ///< others aren't listed; empty = all are
         std::span<std::uint64_t> drawn;          ///< those that are drawn are added; empty = not asked
@@ -69,7 +72,7 @@ public:
     const WeldedMesh& mesh() const;
     const SelfTransferOptions& options() const;  ///< Auto sides as most of the mesh has them
     std::size_t coarseTriangles() const;
-    std::uint32_t groupCount() const, clusterCount() const;
+    std::uint32_t groupCount() const, placeCount() const;
     /// Kept beside the tables that all meshes share: the mesh, its levels and groups, the room of a frame (once one has
     /// been computed) and its coefficients.
     std::size_t bytes() const;

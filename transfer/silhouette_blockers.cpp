@@ -256,9 +256,10 @@ void SilhouetteMesh::see(const Frame& frame, const SilhouetteKernel& kernel, std
     }
 }
 
-bool SilhouetteMesh::Seen::faces(std::size_t cluster) const {
-    const std::uint32_t* of = sides.data() + kLanes * cluster;
-    return std::any_of(of, of + kLanes, [](std::uint32_t s) { return s != 0; });
+std::uint32_t SilhouetteMesh::Seen::blocking(std::size_t cluster) const {
+    std::uint32_t bits = 0;
+    for (std::uint32_t t = 0; t < kLanes; ++t) bits |= (sides[kLanes * cluster + t] != 0 ? 1u : 0u) << t;
+    return bits;
 }
 
 std::size_t SilhouetteMesh::bytes() const {

@@ -34,8 +34,8 @@ public:
         DifferingEdges differing;
         DealtEdges dealt;
         std::int32_t poles[kLanes] = {};
-        /// Whether some triangle of the cluster blocks for some receiver.
-        bool faces(std::size_t cluster) const;
+        /// The cluster's triangles, as bits, that block for some receiver.
+        std::uint32_t blocking(std::size_t cluster) const;
     };
 
     SilhouetteMesh() = default;

@@ -34,7 +34,7 @@ std::span<const std::uint64_t> VisibleSets::at(int frame) const {
 }
 
 VisibleSets findVisibleSets(const SelfTransfer& transfer, std::span<const NumberedFrame> frames, int windowFrames) {
-    VisibleSets out{transfer.key(), transfer.groupCount(), transfer.clusterCount(), {}};
+    VisibleSets out{transfer.key(), transfer.groupCount(), transfer.placeCount(), {}};
     for (const NumberedFrame& frame : frames) {
         if (out.windows.empty() || (windowFrames > 0 && frame.number >= out.windows.back().end)) {
             const int first = windowFrames > 0 ? frame.number / windowFrames * windowFrames : 0;

@@ -47,7 +47,8 @@ TEST(BlockerLevels, PosesTellWhichVerticesAreDark) {
     const std::vector<std::uint32_t> part = connectedParts(m.mesh.triangles, m.rest.size());
     for (std::size_t v = 0; v < apart.size(); ++v) apart[v].y += static_cast<float>(part[v]);
     const std::vector<std::vector<glm::vec3>> poses = {m.rest};
-    const SelfTransfer unaware(m.mesh, apart, {}), aware(m.mesh, apart, {}, poses);
+    const SelfTransferOptions levels{.coarse = kUsualCoarse};
+    const SelfTransfer unaware(m.mesh, apart, levels), aware(m.mesh, apart, levels, poses);
     EXPECT_GT(aware.compute(m.rest).listed, unaware.compute(m.rest).listed);
     EXPECT_NE(aware.key(), unaware.key()) << "other groups: sets of blockers of one mean nothing to the other";
 }
