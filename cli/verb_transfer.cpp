@@ -164,11 +164,11 @@ std::string text(const Settings& s, const TransferRun& run, const json& data) {
                     run.reused, r.vertexCount(), r.triangles.size(), r.order, humanBytes(data["bytes"]));
     out += fmt::format("  speed       {:.4g} vertices/s, {:.4g} frames/s\n", data["vertices_per_second"].get<double>(),
                        data["frames_per_second"].get<double>());
-    out += fmt::format("  blockers    {:.1f} triangles listed a vertex, {:.1f} {} drawn; {}, {} sides\n", run.listed,
-                       run.drawn, s.plan.lut ? "of them" : "edges",
-                       s.plan.options.coarse == 0 ? "no levels"
-                                                  : fmt::format("coarsest level {} triangles", run.coarseTriangles),
-                       nameOf(run.sides));
+    out += fmt::format(
+        "  blockers    {:.1f} triangles listed a vertex, {:.1f} {} drawn; {}, {} sides\n", run.listed, run.drawn,
+        s.plan.lut ? "of them" : "edges",
+        s.plan.options.coarse == 0 ? "no levels" : fmt::format("coarsest level {} triangles", run.coarseTriangles),
+        nameOf(run.sides));
     if (run.bytes > 0)
         out += fmt::format("  memory      {} a vertex beside the tables\n",
                            humanBytes(data["memory"]["bytes_per_vertex"].get<std::size_t>()));
@@ -267,7 +267,8 @@ constexpr const char* kDetails =
     "With --glossy N, V is (1 - S) of the matt one + S that of (N + 2)/2pi (r.s)^N about the mirrored view r.\n"
     "Speed is wall time of the computation alone, after a frame to warm up; the split is CPU time of all threads.\n"
     "Transform: moving and listing blockers, and finding their silhouettes; lobes count as rasterization. Blockers: "
-    "triangles that may block the vertex; drawn are the silhouettes' edges (with --lut triangles). Error: mean over vertices "
+    "triangles that may block the vertex; drawn are the silhouettes' edges (with --lut triangles). Error: mean over "
+    "vertices "
     "of |V - truth| / |truth|, "
     "with "
     "truth\n"
@@ -302,7 +303,8 @@ std::vector<Option> options(const std::shared_ptr<Settings>& s) {
         {"--order", "L", "Highest band of the harmonics, 0 to 6 (default 4: 25 coefficients)",
          own("--order",
              integerInto([s](long long v) { s->plan.options.order = static_cast<int>(v); }, 0, kMaxTransferOrder))},
-        {"--rings", "R", "With levels, the mesh itself blocks within so many rings of triangles, 1 or 2 (default 1; with --lut 2)",
+        {"--rings", "R",
+         "With levels, the mesh itself blocks within so many rings of triangles, 1 or 2 (default 1; with --lut 2)",
          integerInto([s](long long v) { s->rings = static_cast<int>(v); }, 1, 2)},
         {"--coarse", "N",
          "Triangles of the coarsest level of detail, about: faster on meshes of over 10000 triangles, at more error "

@@ -27,14 +27,14 @@ BlockerKernel blockerKernel(VectorSet set) {
 #if defined(__x86_64__)
     switch (chosenSet(set)) {
         case VectorSet::Avx512:
-            return {avx512::choose, avx512::list, avx512::cull};
+            return {avx512::choose, avx512::cull};
         case VectorSet::Avx2:
-            return {avx2::choose, avx2::list, avx2::cull};
+            return {avx2::choose, avx2::cull};
         default:
             break;
     }
 #endif
-    return {plain::choose, plain::list, plain::cull};
+    return {plain::choose, plain::cull};
 }
 
 }  // namespace nacre

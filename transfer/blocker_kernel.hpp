@@ -1,4 +1,5 @@
-// Which blockers a group of vertices lists and which a vertex draws, by the widest vectors that the processor has.
+// Which level of detail each patch has for a group of vertices, and which triangles a vertex sees, by the widest
+// vectors that the processor has.
 #pragma once
 
 #include "transfer/mask_kernel.hpp"
@@ -18,10 +19,9 @@ inline constexpr std::uint8_t kHiddenPatch = 0x80;  ///< beside the level: under
 
 inline constexpr float kAnyOffset = -1e30f;  ///< a triangle's that passes the test of facing from anywhere
 
-/// Triangles that no vertex of a group can rule out, by columns for the vertices' own tests.
+/// Triangles by columns, each padded to a multiple of 16.
 struct ListedBlockers {
-    std::vector<float> columns[14];    ///< corners, normal, offset, offset where sides at least anySide pass
-    std::vector<std::uint32_t> index;  ///< of their rows
+    std::vector<float> columns[13];  ///< corners, normal, offset
     std::size_t count = 0;
 };
 
@@ -29,13 +29,8 @@ struct BlockerKernel {
     /// The coarsest level whose error is below `angle`, seen from the group, for each patch; and whether it is hidden.
     /// \param levels  room for the padded count
     void (*choose)(const PatchColumns& patches, const GroupBounds& group, float angle, std::uint8_t* levels);
-    /// Those of `count` rows that may face, and rise over the plane of, some vertex of the group. Rows whose sides are
-    /// at least `anySide` need not face it. \param candidates  room for 15 more behind
-    void (*list)(const BlockerRow* rows, std::uint32_t* candidates, std::size_t count, const GroupBounds& group,
-                 float anySide, ListedBlockers& out);
-    /// Those with a corner over the receiver's plane that face it (or, if `inside`, needn't, as in list): their numbers
-    /// in the list. \param out  room for 16 more
-    std::size_t (*cull)(const ListedBlockers& list, const Receiver& receiver, bool inside, std::uint32_t* out);
+    /// Those with a corner over the receiver's plane that face it: their numbers. \param out  room for 16 more
+    std::size_t (*cull)(const ListedBlockers& list, const Receiver& receiver, std::uint32_t* out);
 };
 BlockerKernel blockerKernel(VectorSet set = VectorSet::Widest);
 

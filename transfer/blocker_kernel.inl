@@ -45,40 +45,11 @@ void choose(const PatchColumns& patches, const GroupBounds& group, float angle, 
     }
 }
 
-void list(const BlockerRow* rows, std::uint32_t* candidates, std::size_t count, const GroupBounds& group, float anySide,
-          ListedBlockers& out) {
-    out.count = 0;
-    for (std::size_t k = count; k % kWide; ++k) candidates[k] = candidates[count - 1];
-    for (std::size_t i = 0; i < count; i += kWide) {
-        Floats v[15];
-        gather<15>(rows, candidates + i, v);
-        Floats highest{}, farthest{};
-        for (int c = 0; c < 3; ++c) {
-            const Columns d = Columns{v[3 * c], v[3 * c + 1], v[3 * c + 2]} - group.centre;
-            const Floats height = dot(group.normal, d), far = lengthOf(d);
-            highest = c == 0 ? height : larger(highest, height);
-            farthest = larger(farthest, far);
-        }
-        const Floats radius = splat(group.radius);
-        Mask keep = highest + splat(glm::length(group.normal)) * radius + splat(group.spread) * (farthest + radius) >= Floats{};
-        const Mask always = v[14] >= splat(kAnySide);
-        v[12] = choose(always, splat(kAnyOffset), v[12]);
-        const Floats around = v[13] * radius;
-        v[13] = choose(v[14] >= splat(anySide), splat(kAnyOffset), v[12]);
-        keep &= dot(group.centre, {v[9], v[10], v[11]}) - v[13] + around >= Floats{};
-        const unsigned used = count - i >= kWide ? 0xffffu : (1u << (count - i)) - 1, bits = lanes(keep) & used;
-        std::uint32_t which[kWide];
-        std::memcpy(which, candidates + i, sizeof(which));
-        for (int c = 0; c < 14; ++c) append(out.columns[c].data(), out.count, v[c], bits);
-        out.count = append(out.index.data(), out.count, which, bits);
-    }
-}
-
-std::size_t cull(const ListedBlockers& list, const Receiver& receiver, bool inside, std::uint32_t* out) {
+std::size_t cull(const ListedBlockers& list, const Receiver& receiver, std::uint32_t* out) {
     const glm::vec3 p = receiver.point, n = receiver.normal;
     const Floats height = splat(n.x * p.x + n.y * p.y + n.z * p.z);
     const float* column[12];
-    const float* offset = list.columns[inside ? 13 : 12].data();
+    const float* offset = list.columns[12].data();
     for (int c = 0; c < 12; ++c) column[c] = list.columns[c].data();
     const auto at = [&](int c, std::size_t i) {
         return Columns{load(column[c] + i), load(column[c + 1] + i), load(column[c + 2] + i)};

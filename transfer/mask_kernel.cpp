@@ -28,7 +28,7 @@ MaskKernel kernelOf([[maybe_unused]] VectorSet set) {
 
 BlockerRow blockerRow(const glm::vec3& a, const glm::vec3& b, const glm::vec3& c) {
     const glm::vec3 n = glm::cross(b - a, c - a);
-    return {{a.x, a.y, a.z, b.x, b.y, b.z, c.x, c.y, c.z}, {n.x, n.y, n.z}, glm::dot(n, a), glm::length(n), 0, 0};
+    return {{a.x, a.y, a.z, b.x, b.y, b.z, c.x, c.y, c.z}, {n.x, n.y, n.z}, glm::dot(n, a), glm::length(n), {}};
 }
 
 Receiver receiverAt(const glm::vec3& point, const glm::vec3& normal) {

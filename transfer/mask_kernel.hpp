@@ -9,15 +9,13 @@
 
 namespace nacre {
 
-/// A triangle as the kernels read it. Rows of all levels of a frame lie one behind the other.
-inline constexpr float kFrontSide = 0, kInnerSide = 1, kAnySide = 2;  ///< kInnerSide: the back where it is seen
+/// A triangle as the kernels read it.
 struct alignas(64) BlockerRow {
     float corners[9] = {};
     float normal[3] = {};  ///< outward, as long as twice the area
     float offset = 0;      ///< normal · corner
     float normalLength = 0;
-    float sides = 0;  ///< kFrontSide, kInnerSide or kAnySide: which block
-    float room = 0;
+    float room[2] = {};
 };
 BlockerRow blockerRow(const glm::vec3& a, const glm::vec3& b, const glm::vec3& c);
 

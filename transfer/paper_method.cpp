@@ -76,10 +76,8 @@ ListedBlockers columnsOf(std::span<const BlockerRow> rows, bool bothSides) {
     ListedBlockers out;
     out.count = rows.size();
     const std::size_t padded = (rows.size() + kLanes - 1) / kLanes * kLanes;
-    out.index.resize(padded);
     for (std::vector<float>& column : out.columns) column.resize(padded);
     for (std::size_t t = 0; t < rows.size(); ++t) {
-        out.index[t] = static_cast<std::uint32_t>(t);
         for (std::size_t k = 0; k < 9; ++k) out.columns[k][t] = rows[t].corners[k];
         for (std::size_t k = 0; k < 3; ++k) out.columns[9 + k][t] = rows[t].normal[k];
         out.columns[12][t] = bothSides ? kAnyOffset : rows[t].offset;
@@ -182,7 +180,7 @@ TaskResult PaperMethod::State::computeTask(std::span<const std::uint32_t> of, co
         for (std::size_t i = 0; i < used; ++i) {
             const std::uint32_t v = of[first + i];
             receivers[i] = receiverAt(positions[v], frame.normals[v]);
-            const std::size_t all = culling.cull(blockers.coarse, receivers[i], false, indices.data());
+            const std::size_t all = culling.cull(blockers.coarse, receivers[i], indices.data());
             std::uint32_t* const end = indices.data() + all;
             for (const std::uint32_t t : replaced[v]) isReplaced[t] = v + 1;
             std::uint32_t* last =

@@ -29,7 +29,7 @@ struct GroupResult {
 struct Scratch {
     std::vector<std::uint8_t> levels;
     SilhouetteMesh::Seen seen;
-    std::vector<std::int8_t> layers;
+    std::vector<std::int16_t> layers;
     std::vector<std::uint32_t> masks;
     std::vector<float> local, world, sums;
     std::vector<Receiver> receivers;
@@ -236,7 +236,8 @@ std::size_t SelfTransfer::State::listBlockers(const FrameBlockers& blockers, con
     }
     if (!sets.visible.empty())
         for (std::size_t c = 0; c < members.size(); ++c)
-            members[c] &= static_cast<std::uint32_t>(sets.visible[group * setWords() + c / 4] >> c % 4 * kLanes) & 0xffffu;
+            members[c] &=
+                static_cast<std::uint32_t>(sets.visible[group * setWords() + c / 4] >> c % 4 * kLanes) & 0xffffu;
     std::size_t listed = hidden;
     for (const std::uint32_t some : members) listed += static_cast<std::size_t>(std::popcount(some));
     return listed;
@@ -279,8 +280,7 @@ GroupResult SelfTransfer::State::computeGroup(std::size_t group, std::span<const
     const double listed = now();
     const std::size_t words = maskWords(options.mask);
     scratch.masks.resize(words * vertices.size());
-    for (std::size_t i = 0; i < vertices.size(); ++i)
-        result.drawn += draw(i, blockers.silhouettes, scratch);
+    for (std::size_t i = 0; i < vertices.size(); ++i) result.drawn += draw(i, blockers.silhouettes, scratch);
     if (use)
         for (std::size_t i = 0; i < vertices.size(); ++i)
             use(vertices[i], scratch.receivers[i], std::span(scratch.masks).subspan(words * i, words));

@@ -13,10 +13,10 @@ namespace nacre {
 inline constexpr std::size_t kUsualCoarse = 300;  ///< SelfTransferOptions::coarse of who wants levels
 
 struct SelfTransferOptions {
-    int mask = 32;             ///< N of N × N bits: 16, 32, 64, 128
-    int order = 4;             ///< highest band of harmonics, 0 to 6: (order + 1)² coefficients
-    std::size_t coarse = 0;    ///< triangles of the coarsest level, about; 0 = no levels, the mesh itself everywhere
-    int rings = 1;             ///< with levels, the mesh itself blocks within so many rings of triangles: 1 or 2
+    int mask = 32;           ///< N of N × N bits: 16, 32, 64, 128
+    int order = 4;           ///< highest band of harmonics, 0 to 6: (order + 1)² coefficients
+    std::size_t coarse = 0;  ///< triangles of the coarsest level, about; 0 = no levels, the mesh itself everywhere
+    int rings = 1;           ///< with levels, the mesh itself blocks within so many rings of triangles: 1 or 2
     double lodAngle =
         0.25;  ///< [rad] a level is used where it is off by less, seen from the vertex; less where it is dark
     BlockingSides sides = BlockingSides::Auto;
@@ -41,9 +41,9 @@ struct TransferFrame {
 /// diffuse f = 1/π (radiance = albedo Σ L_i V_i for radiance coefficients L_i). What is integrated is the share hidden,
 /// taken from the transfer of an open hemisphere, which is known exactly.
 ///
-/// What is drawn are silhouettes (silhouette_blockers.hpp). The triangles at a vertex hide what lies below them: all that
-/// is under their far edges, down to the direction −n. With levels, further blockers come from the level of detail that
-/// is close enough.
+/// What is drawn are silhouettes (silhouette_blockers.hpp). The triangles at a vertex hide what lies below them: all
+/// that is under their far edges, down to the direction −n. With levels, further blockers come from the level of detail
+/// that is close enough.
 class SelfTransfer {
 public:
     /// \param rest  positions of a frame by which levels of detail and groups of vertices are made; finite

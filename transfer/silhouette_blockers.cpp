@@ -264,8 +264,7 @@ std::uint32_t SilhouetteMesh::Seen::blocking(std::size_t cluster) const {
 
 std::size_t SilhouetteMesh::bytes() const {
     return bytesOf(triangles_) + bytesOf(clusters_) + bytesOf(slots_) + bytesOf(ends_) + bytesOf(edges_.a) +
-           bytesOf(edges_.b) + bytesOf(edges_.inside) + bytesOf(edges_.between) + bytesOf(edgesOf_) +
-           bytesOf(borders_);
+           bytesOf(edges_.b) + bytesOf(edges_.inside) + bytesOf(edges_.between) + bytesOf(edgesOf_) + bytesOf(borders_);
 }
 
 }  // namespace nacre

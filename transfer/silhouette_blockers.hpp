@@ -78,7 +78,7 @@ private:
     std::vector<glm::uvec2> ends_;                   ///< [edge] points
     EdgeSides edges_;
     std::vector<std::vector<std::uint32_t>> borders_;  ///< [cluster] clusters at which its edges to others lie
-    std::vector<glm::uvec3> edgesOf_;  ///< [place] of a triangle's corners c and c + 1
+    std::vector<glm::uvec3> edgesOf_;                  ///< [place] of a triangle's corners c and c + 1
     std::size_t triangleCount_ = 0;
 };
 

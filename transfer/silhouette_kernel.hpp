@@ -41,16 +41,17 @@ struct ClusterFlags {
 };
 
 /// A mask as counts of layers: for each row how many more layers are hidden from a step on, [step][row] with one step
-/// below the horizon, and how many hide the pole. A direction is hidden where the sum from the pole is positive.
+/// below the horizon, and how many hide the pole. A direction is hidden where the sum from the pole is positive. Right
+/// while fewer than 32768 edges' layers fall into one step of a row.
 inline std::size_t layerCounts(int size) { return static_cast<std::size_t>(size) * static_cast<std::size_t>(size + 1); }
 
 /// A triangle faces a point that is farther in front of it [of the extent]: on which side of it nearer ones are,
 /// rounding decides, and in a receiver's frame perhaps otherwise.
 inline constexpr float kFacing = 1e-7f;
 
-/// A mesh's edges by the places of the triangles on their two sides; an edge runs along `a` as that stands and along `b`
-/// reversed. Cluster c's own lie from inside[c] to between[c], those to others and bare ones, each at one of its two
-/// clusters, from there to inside[c + 1]. All in sixteens: where there are fewer, a = b.
+/// A mesh's edges by the places of the triangles on their two sides; an edge runs along `a` as that stands and along
+/// `b` reversed. Cluster c's own lie from inside[c] to between[c], those to others and bare ones, each at one of its
+/// two clusters, from there to inside[c + 1]. All in sixteens: where there are fewer, a = b.
 struct EdgeSides {
     std::vector<std::uint32_t> a, b;
     std::vector<std::uint32_t> inside;  ///< one more than clusters
@@ -93,9 +94,9 @@ struct SilhouetteKernel {
                  DealtEdges& out);
     /// Adds the layers that edges bound. \param items  as DealtEdges has them, room for 15 more behind
     void (*add)(const MaskRows& rows, const EdgeRow* edges, const Receiver& receiver, std::uint32_t* items,
-                std::size_t count, std::int8_t* layers);
+                std::size_t count, std::int16_t* layers);
     /// \param mask  [(N + 31)/32][N] words, written
-    void (*finish)(const std::int8_t* layers, std::int32_t pole, std::uint32_t* mask);
+    void (*finish)(const std::int16_t* layers, std::int32_t pole, std::uint32_t* mask);
 };
 
 /// \param size  of the mask: 16, 32, 64 or 128 \throws std::invalid_argument also when the processor lacks the set

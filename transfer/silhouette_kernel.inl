@@ -205,7 +205,7 @@ struct Crossings {
 };
 
 template <int N>
-NACRE_INLINE void addCrossings(const MaskRows& rows, Crossings& crossings, std::int8_t* layers) {
+NACRE_INLINE void addCrossings(const MaskRows& rows, Crossings& crossings, std::int16_t* layers) {
     for (std::size_t i = 0; i < crossings.count; i += kWide) {
         Mask row;
         std::memcpy(&row, crossings.row + i, sizeof(row));
@@ -216,13 +216,13 @@ NACRE_INLINE void addCrossings(const MaskRows& rows, Crossings& crossings, std::
         std::int32_t at[kWide];
         store(at, step * N + row);
         const std::size_t end = std::min<std::size_t>(kWide, crossings.count - i);
-        for (std::size_t k = 0; k < end; ++k) layers[at[k]] = static_cast<std::int8_t>(layers[at[k]] + crossings.layers[i + k]);
+        for (std::size_t k = 0; k < end; ++k) layers[at[k]] = static_cast<std::int16_t>(layers[at[k]] + crossings.layers[i + k]);
     }
     crossings.count = 0;
 }
 
 template <int N>
-void addSwept(const MaskRows& rows, Swept& swept, std::int8_t* layers) {
+void addSwept(const MaskRows& rows, Swept& swept, std::int16_t* layers) {
     Crossings crossings;
     for (std::size_t i = 0; i < swept.count; i += kWide) {
         const Columns p{load(swept.column[0] + i), load(swept.column[1] + i), load(swept.column[2] + i)};
@@ -254,7 +254,7 @@ void addSwept(const MaskRows& rows, Swept& swept, std::int8_t* layers) {
 
 template <int N>
 void add(const MaskRows& rows, const EdgeRow* edges, const Receiver& receiver, std::uint32_t* items, std::size_t count,
-         std::int8_t* layers) {
+         std::int16_t* layers) {
     for (std::size_t k = count; k % kWide; ++k) items[k] = items[count - 1];
     const Floats zero{}, tiny = splat(1e-30f);
     Swept swept;
@@ -289,9 +289,9 @@ void add(const MaskRows& rows, const EdgeRow* edges, const Receiver& receiver, s
     addSwept<N>(rows, swept, layers);
 }
 
-NACRE_INLINE Mask wide(const std::int8_t* p) {
+NACRE_INLINE Mask wide(const std::int16_t* p) {
 #if NACRE_SET == 512
-    return as<Mask>(_mm512_maskz_cvtepi8_epi32(0xffff, _mm_loadu_si128(reinterpret_cast<const __m128i*>(p))));
+    return as<Mask>(_mm512_maskz_cvtepi16_epi32(0xffff, _mm256_loadu_si256(reinterpret_cast<const __m256i*>(p))));
 #else
     Mask out;
     for (int k = 0; k < kWide; ++k) out[k] = p[k];
@@ -300,7 +300,7 @@ NACRE_INLINE Mask wide(const std::int8_t* p) {
 }
 
 template <int N>
-void finish(const std::int8_t* layers, std::int32_t pole, std::uint32_t* mask) {
+void finish(const std::int16_t* layers, std::int32_t pole, std::uint32_t* mask) {
     for (int block = 0; block < N / kWide; ++block) {
         Mask sum = Mask{} + pole;
         for (int w = 0; w < (N + 31) / 32; ++w) {
