@@ -66,16 +66,11 @@ double wallSeconds() {
 
 }  // namespace
 
-SelfTransferOptions fastTransfer() {
-    SelfTransferOptions options;
-    options.coarse = 0;
-    return options;
-}
+SelfTransferOptions fastTransfer() { return {}; }
 
 SelfTransferOptions qualityTransfer() {
     SelfTransferOptions options;
     options.mask = 64;
-    options.coarse = 0;
     return options;
 }
 
@@ -160,23 +155,19 @@ std::vector<TransferMeasurement> sweepTransfer(const std::vector<TransferMesh>& 
     for (const TransferMesh& mesh : meshes) {
         std::vector<TransferContender> all;
         const auto add = [&](int mask, std::size_t coarse, double angle, int rings = 1) {
-            SelfTransferOptions o = fastTransfer();
+            SelfTransferOptions o;
             o.mask = mask, o.coarse = coarse, o.lodAngle = angle, o.rings = rings;
-            const bool seen =
-                std::any_of(all.begin(), all.end(), [&](const TransferContender& c) { return c.setting == text(o); });
-            if (!seen) all.push_back(ours(mesh, o));
+            all.push_back(ours(mesh, o));
         };
-        const SelfTransferOptions fast = fastTransfer(), quality = qualityTransfer();
+        const double angle = SelfTransferOptions{}.lodAngle;
         for (const int mask : {16, 32, 64, 128}) {
-            add(mask, fast.coarse, fast.lodAngle, fast.rings);
-            add(mask, quality.coarse, quality.lodAngle, quality.rings);
+            add(mask, 0, angle);
+            add(mask, kUsualCoarse, angle);
         }
-        add(32, 0, 0);
-        add(64, 0, 0);
         if (!options.quick) {
-            for (const double angle : {0.05, 0.1, 0.15, 0.25, 0.4, 0.6, 1.0}) add(32, fast.coarse, angle, fast.rings);
-            for (const std::size_t coarse : {75, 150, 300, 600}) add(32, coarse, fast.lodAngle, fast.rings);
-            add(32, fast.coarse, fast.lodAngle, 3 - fast.rings);
+            for (const double other : {0.05, 0.1, 0.15, 0.4, 0.6, 1.0}) add(32, kUsualCoarse, other);
+            for (const std::size_t coarse : {75, 150, 600}) add(32, coarse, angle);
+            add(32, kUsualCoarse, angle, 2);
             for (const int table : {32, 64, 256, 0}) all.push_back(papers(mesh, {.table = table}));
             all.push_back(papers(mesh, {.rings = 1}));
             all.push_back(papers(mesh, {.coarse = 0}));

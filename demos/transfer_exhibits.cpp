@@ -21,8 +21,8 @@ std::string percent(double share) { return fmt::format("{:.2f} %", 100 * share);
 std::string millions(double count) { return fmt::format("{:.2f} M", count / 1e6); }
 
 std::string sizeWords(const TransferStudy& study) {
-    return fmt::format("{} vertices, {} triangles, {} in the coarsest level", study.transfer().mesh().vertexCount(),
-                       study.transfer().mesh().triangles.size(), study.transfer().coarseTriangles());
+    return fmt::format("{} vertices, {} triangles", study.transfer().mesh().vertexCount(),
+                       study.transfer().mesh().triangles.size());
 }
 
 double meanOf(const TransferStudy& study, double (*value)(const TransferStudyFrame&)) {
@@ -61,7 +61,7 @@ ExhibitTable errorsOfFrames(const ShownMotion& motion, const TransferStudy& stud
 
 /// A model's frames in each surrounding, with and without shadows, rays at the vertices as reference.
 Exhibit figure(const Task& task, const TransferModel& model, const std::vector<std::string>& surroundings,
-               const std::string& title, bool withoutLevels = false) {
+               const std::string& title, bool levelsToo = false) {
     report(task.options.progress, task.id + ": rays at the vertices", 0);
     const ShownMotion motion = openMotion(task, model);
     TransferStudy study(task.loader, motion, raysOf(task));
@@ -78,12 +78,14 @@ Exhibit figure(const Task& task, const TransferModel& model, const std::vector<s
                     shadows ? study.shadowed(i, light.coefficients) : study.withoutShadows(i, light.coefficients),
                     pictureOf(study.rayTraced(i, light.coefficients), task.size(320)));
         }
-    std::optional<TransferStudy> meshItself;
-    if (withoutLevels) {
-        meshItself.emplace(task.loader, motion, 1, SelfTransferOptions{.coarse = 0});
-        builder.row("Shadowed by the mesh itself, without levels of detail", false);
+    std::optional<TransferStudy> levels;
+    if (levelsToo) {
+        levels.emplace(task.loader, motion, 1, SelfTransferOptions{.coarse = kUsualCoarse});
+        builder.row(fmt::format("Far blockers by levels of detail, {} triangles in the coarsest",
+                                levels->transfer().coarseTriangles()),
+                    false);
         for (std::size_t i = 0; i < motion.frames.size(); ++i)
-            builder.panel(fmt::format("frame {}", motion.frames[i]), meshItself->shadowed(i, lights[0].coefficients),
+            builder.panel(fmt::format("frame {}", motion.frames[i]), levels->shadowed(i, lights[0].coefficients),
                           pictureOf(study.rayTraced(i, lights[0].coefficients), task.size(320)));
     }
     const TransferStudy::Seconds seconds = study.secondsAFrame(task.options.timingRepeats);
@@ -91,8 +93,9 @@ Exhibit figure(const Task& task, const TransferModel& model, const std::vector<s
     e.section = "Self-shadows of moving meshes (HEMI)";
     e.title = motion.standsIn ? "Another cloth, which stands in for: " + title : title;
     e.caption = fmt::format(
-        "For each vertex and frame blockers are drawn into a mask of 32 x 32 bits over its hemisphere, the mask is "
-        "integrated against harmonics of order 4, and the light's coefficients give the vertex's radiance. Nothing is "
+        "For each vertex and frame the blockers' silhouettes are drawn into a mask of 32 x 32 bits over its "
+        "hemisphere, the mask is integrated against harmonics of order 4, and the light's coefficients give the "
+        "vertex's radiance. Nothing is "
         "precomputed for the motion. The reference takes visibility from {} rays a vertex and draws the same way. The "
         "relative L2 error of the transfer vectors is {} in the mean over vertices (nearly buried ones, which see "
         "almost "
@@ -202,7 +205,7 @@ std::vector<std::string> ourRow(const PaperModel& p, const TransferStudy& study,
     std::vector<std::string> row = {fmt::format("{}, here", p.name),
                                     fmt::format("{}", mesh.vertexCount()),
                                     fmt::format("{}", mesh.triangles.size()),
-                                    fmt::format("{}", study.transfer().coarseTriangles()),
+                                    "none",
                                     fmt::format("{:.0f}", mean([](const TransferStudyFrame& f) { return f.listed; })),
                                     fmt::format("{:.0f}", mean([](const TransferStudyFrame& f) { return f.drawn; })),
                                     fmt::format("{:.0f}", 1 / s.facing),
@@ -242,7 +245,9 @@ Exhibit tables(const Task& task) {
         "frames of the exhibits above, against {} rays a vertex, whose own noise is in them; vertices that touch or "
         "enter "
         "other parts see almost nothing and fill the mean, not the error of all. Shares are of the time of all "
-        "threads.",
+        "threads. Blockers are triangles that may block a vertex: theirs of one coarse mesh and near ones, here all, "
+        "of "
+        "which the edges of silhouettes are drawn.",
         raysOf(task));
     e.scene = fmt::format("{}; pictures of {} pixels along an edge.", light.words, task.size(240));
     builder.finish(e);
