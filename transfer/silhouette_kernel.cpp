@@ -1,5 +1,6 @@
 #include "transfer/silhouette_kernel.hpp"
 
+#include <algorithm>
 #include <cstring>
 #include <stdexcept>
 #include <string>

@@ -206,10 +206,11 @@ struct Crossings {
 
 template <int N>
 NACRE_INLINE void addCrossings(const MaskRows& rows, Crossings& crossings, std::int16_t* layers) {
+    for (float* column : {crossings.a, crossings.b}) std::fill_n(column + crossings.count, kWide, 0.0f);
+    std::fill_n(crossings.row + crossings.count, kWide, 0);
     for (std::size_t i = 0; i < crossings.count; i += kWide) {
         Mask row;
         std::memcpy(&row, crossings.row + i, sizeof(row));
-        row &= N - 1;  // of lanes behind the last too
         const Floats cot = load(crossings.a + i) * atRows<N>(rows.cosPhi, row) + load(crossings.b + i) * atRows<N>(rows.sinPhi, row);
         const Floats bounded = larger(cot, Floats{});
         const Mask step = whole(splat(N) / (splat(1) + bounded * bounded) + atRows<N>(rows.dither, row));
@@ -224,6 +225,8 @@ NACRE_INLINE void addCrossings(const MaskRows& rows, Crossings& crossings, std::
 template <int N>
 void addSwept(const MaskRows& rows, Swept& swept, std::int16_t* layers) {
     Crossings crossings;
+    for (float(&column)[Swept::kRoom + kWide] : swept.column) std::fill_n(column + swept.count, kWide, 0.0f);
+    std::fill_n(swept.rows + swept.count, kWide, 0);
     for (std::size_t i = 0; i < swept.count; i += kWide) {
         const Columns p{load(swept.column[0] + i), load(swept.column[1] + i), load(swept.column[2] + i)};
         const Columns q{load(swept.column[3] + i), load(swept.column[4] + i), load(swept.column[5] + i)};
