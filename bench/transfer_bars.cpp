@@ -52,8 +52,7 @@ std::vector<Bar> measureTransferBars(const std::vector<TransferMesh>& meshes, co
                                      std::vector<TransferMeasurement>* kept) {
     constexpr double kSmall = 2978, kLarge = 8636;  // HEMI table 1: fight and hand
     const SelfTransferOptions fast = fastTransfer(), quality = qualityTransfer();
-    SelfTransferOptions rough;
-    rough.mask = 16;
+    const SelfTransferOptions rough{.mask = 16, .coarse = 0};
     const std::string fastText = "transfer, fast (" + text(fast) + ")",
                       qualityText = "transfer, quality (" + text(quality) + ")";
     Bar fastSpeed{fastText + ", mesh of about 3000 vertices", "million vertices/s", 1.3, 0, true};

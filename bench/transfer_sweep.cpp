@@ -79,8 +79,9 @@ std::string text(const SelfTransferOptions& o) {
                               : o.sides == BlockingSides::Front ? ", front sides"
                               : o.sides == BlockingSides::Fine  ? ", both sides of the mesh itself"
                                                                 : ", both sides";
-    if (o.coarse == 0) return fmt::format("mask {}, no levels{}", o.mask, sides);
-    return fmt::format("mask {}, coarse {}, angle {:g}, rings {}{}", o.mask, o.coarse, o.lodAngle, o.rings, sides);
+    if (o.coarse == 0u) return fmt::format("mask {}, no levels{}", o.mask, sides);
+    return fmt::format("mask {}, coarse {}, angle {:g}, rings {}{}", o.mask, o.coarse.value_or(kUsualCoarse),
+                       o.lodAngle, o.rings, sides);
 }
 
 std::string text(const PaperMethodOptions& o) {

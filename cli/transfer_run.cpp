@@ -44,11 +44,11 @@ class Method {
 public:
     Method(const WeldedMesh& mesh, std::span<const glm::vec3> rest, const TransferPlan& plan,
            std::span<const std::vector<glm::vec3>> poses)
-        : sides_(plan.options.sides) {
+        : sides_(plan.options.sides), paperCoarse_(plan.options.coarse.value_or(kUsualCoarse)) {
         const SelfTransferOptions& o = plan.options;
         if (o.sides == BlockingSides::Auto) sides_ = mesh.closed ? BlockingSides::Front : BlockingSides::Both;
         if (plan.lut)
-            paper_.emplace(mesh, rest, PaperMethodOptions{*plan.lut, o.rings, o.coarse, o.sides, true, o.threads});
+            paper_.emplace(mesh, rest, PaperMethodOptions{*plan.lut, o.rings, paperCoarse_, o.sides, true, o.threads});
         else
             self_.emplace(mesh, rest, o, poses);
     }
@@ -64,6 +64,7 @@ public:
     }
     const SelfTransfer& self() const { return *self_; }  ///< unless the paper's
     std::size_t bytes() const { return self_ ? self_->bytes() : 0; }
+    std::size_t coarse() const { return paper_ ? paperCoarse_ : *self_->options().coarse; }
     std::size_t coarseTriangles() const { return paper_ ? paper_->coarseTriangles() : self_->coarseTriangles(); }
 
     BlockingSides sides() const { return paper_ ? sides_ : self_->options().sides; }  ///< resolved
@@ -71,6 +72,7 @@ public:
 private:
     BlockingSides sides_;  ///< of the paper's method, resolved as it does
     std::optional<SelfTransfer> self_;
+    std::size_t paperCoarse_;
     std::optional<PaperMethod> paper_;
     std::optional<RecordedGloss> gloss_;
     std::optional<GlossyTransfer> lobe_;
@@ -145,6 +147,7 @@ TransferRun runTransfer(const AnimatedMesh& animation, const TransferPlan& plan,
     Method transfer(mesh, restPositions, plan, poses);
     if (plan.gloss) out.gloss = glossOf(*plan.gloss, animation, first, end);
     transfer.shine(out.gloss, plan.options);
+    run.coarse = transfer.coarse();
     run.coarseTriangles = transfer.coarseTriangles();
     run.closed = mesh.closed;
     run.sides = transfer.sides();

@@ -19,6 +19,7 @@ struct TransferRun {
     double wallSeconds = 0;         ///< of compute() alone, after one frame to warm up
     TransferSeconds seconds;        ///< of all threads together
     double listed = 0, drawn = 0;   ///< blockers a vertex, mean
+    std::size_t coarse = 0;         ///< as was used: SelfTransferOptions::coarse
     std::size_t coarseTriangles = 0;
     std::size_t bytes = 0;  ///< SelfTransfer::bytes; 0: the paper's method
     bool closed = false;

@@ -27,7 +27,6 @@ struct Settings {
     std::string model, output, clip, ply, sides = "auto", vectors = "widest", weights;
     TransferPlan plan;  ///< end 0: all
     std::optional<int> rings{};
-    std::optional<std::size_t> coarse{};
     bool lodAngle = false;   ///< given
     std::string notWithLut;  ///< the first option given that the paper's method has no use for
     TransferLight light;
@@ -112,7 +111,7 @@ json description(const Context& context, const Settings& s, const TransferRun& r
                 {"options",
                  {{"mask", o.mask},
                   {"rings", o.rings},
-                  {"coarse", o.coarse},
+                  {"coarse", run.coarse},
                   {"lod_angle", o.lodAngle},
                   {"sides", nameOf(run.sides)}}},
                 {"closed", run.closed},
@@ -164,11 +163,10 @@ std::string text(const Settings& s, const TransferRun& run, const json& data) {
                     run.reused, r.vertexCount(), r.triangles.size(), r.order, humanBytes(data["bytes"]));
     out += fmt::format("  speed       {:.4g} vertices/s, {:.4g} frames/s\n", data["vertices_per_second"].get<double>(),
                        data["frames_per_second"].get<double>());
-    out += fmt::format(
-        "  blockers    {:.1f} triangles listed a vertex, {:.1f} {} drawn; {}, {} sides\n", run.listed, run.drawn,
-        s.plan.lut ? "of them" : "edges",
-        s.plan.options.coarse == 0 ? "no levels" : fmt::format("coarsest level {} triangles", run.coarseTriangles),
-        nameOf(run.sides));
+    out += fmt::format("  blockers    {:.1f} triangles listed a vertex, {:.1f} {} drawn; {}, {} sides\n", run.listed,
+                       run.drawn, s.plan.lut ? "of them" : "edges",
+                       run.coarse == 0 ? "no levels" : fmt::format("coarsest level {} triangles", run.coarseTriangles),
+                       nameOf(run.sides));
     if (run.bytes > 0)
         out += fmt::format("  memory      {} a vertex beside the tables\n",
                            humanBytes(data["memory"]["bytes_per_vertex"].get<std::size_t>()));
@@ -204,7 +202,7 @@ void runTransferVerb(const Context& context, Settings s) {
     s.plan.options.rings = s.rings.value_or(s.plan.lut ? PaperMethodOptions{}.rings : SelfTransferOptions{}.rings);
     // Who asks how levels are to be used wants some.
     const bool levels = s.plan.lut || s.rings || s.lodAngle;
-    s.plan.options.coarse = s.coarse.value_or(levels ? kUsualCoarse : SelfTransferOptions{}.coarse);
+    if (levels && !s.plan.options.coarse) s.plan.options.coarse = kUsualCoarse;
     s.plan.options.sides = sidesOf(s.sides);
     if (s.plan.lut && s.plan.options.sides == BlockingSides::Fine)
         throw UsageError("--sides: expected auto, front or both with --lut, found 'fine'");
@@ -307,9 +305,10 @@ std::vector<Option> options(const std::shared_ptr<Settings>& s) {
          "With levels, the mesh itself blocks within so many rings of triangles, 1 or 2 (default 1; with --lut 2)",
          integerInto([s](long long v) { s->rings = static_cast<int>(v); }, 1, 2)},
         {"--coarse", "N",
-         "Triangles of the coarsest level of detail, about: faster on meshes of over 10000 triangles, at more error "
-         "(default 0: the mesh itself everywhere; with --rings, --lod-angle or --lut 300)",
-         integerInto([s](long long v) { s->coarse = static_cast<std::size_t>(v); }, 0, 1 << 30)},
+         "Triangles of the coarsest level of detail, about; 0: the mesh itself everywhere, which errs less (default 0 "
+         "up "
+         "to 20000 triangles, else 300; with --rings, --lod-angle or --lut 300)",
+         integerInto([s](long long v) { s->plan.options.coarse = static_cast<std::size_t>(v); }, 0, 1 << 30)},
         {"--lod-angle", "RAD",
          "A level is used where it is off by less, seen from the vertex (default 0.25: 1 to 2.5 % error)",
          own("--lod-angle", positiveInto([s](double v) {

@@ -100,7 +100,8 @@ SelfTransfer::State::State(WeldedMesh m, std::span<const glm::vec3> rest, const 
     : mesh(std::move(m)),
       options(o),
       corners(cornersOfVertices(mesh.triangles, mesh.vertexCount())),
-      levels(makeBlockerLevels(mesh, rest, {o.coarse}), mesh.vertexCount()),
+      levels(makeBlockerLevels(mesh, rest, {o.coarse.value_or(usualCoarse(mesh.triangles.size()))}),
+             mesh.vertexCount()),
       parts(blockingParts(mesh, rest, o.sides)),
       kernel(silhouetteKernel(o.mask, o.vectors)),
       blockerKernels(blockerKernel(o.vectors)),
@@ -112,6 +113,7 @@ SelfTransfer::State::State(WeldedMesh m, std::span<const glm::vec3> rest, const 
     for (std::size_t v = 0; v < mesh.vertexCount(); ++v)
         mostCorners = std::max<std::size_t>(mostCorners, corners.first[v + 1] - corners.first[v]);
     options.sides = parts.sides;
+    options.coarse = o.coarse.value_or(usualCoarse(mesh.triangles.size()));
     makeSilhouettes(rest);
     makeGroups(rest, {});
 }
@@ -363,7 +365,7 @@ std::uint64_t SelfTransfer::key() const {
     std::uint64_t hash = 0xcbf29ce484222325ull;  // FNV-1a by words
     const auto add = [&](std::uint64_t word) { hash = (hash ^ word) * 0x100000001b3ull; };
     const SelfTransferOptions& o = state_->options;
-    add(o.coarse);
+    add(*o.coarse);
     add(static_cast<std::uint64_t>(o.rings));
     add(static_cast<std::uint64_t>(o.sides));
     add(std::bit_cast<std::uint64_t>(o.lodAngle));

@@ -3,6 +3,7 @@
 
 #include <functional>
 #include <memory>
+#include <optional>
 
 #include "transfer/blocker_levels.hpp"
 #include "transfer/blocking_parts.hpp"
@@ -11,12 +12,15 @@
 namespace nacre {
 
 inline constexpr std::size_t kUsualCoarse = 300;  ///< SelfTransferOptions::coarse of who wants levels
+/// Levels pay on meshes of more than 20000 triangles: at 15000 they win a third, at 100000 nine times.
+inline constexpr std::size_t usualCoarse(std::size_t triangles) { return triangles > 20000 ? kUsualCoarse : 0; }
 
 struct SelfTransferOptions {
-    int mask = 32;           ///< N of N × N bits: 16, 32, 64, 128
-    int order = 4;           ///< highest band of harmonics, 0 to 6: (order + 1)² coefficients
-    std::size_t coarse = 0;  ///< triangles of the coarsest level, about; 0 = no levels, the mesh itself everywhere
-    int rings = 1;           ///< with levels, the mesh itself blocks within so many rings of triangles: 1 or 2
+    int mask = 32;  ///< N of N × N bits: 16, 32, 64, 128
+    int order = 4;  ///< highest band of harmonics, 0 to 6: (order + 1)² coefficients
+    /// Triangles of the coarsest level, about; 0 = no levels, the mesh itself everywhere; none = usualCoarse's.
+    std::optional<std::size_t> coarse{};
+    int rings = 1;  ///< with levels, the mesh itself blocks within so many rings of triangles: 1 or 2
     double lodAngle =
         0.25;  ///< [rad] a level is used where it is off by less, seen from the vertex; less where it is dark
     BlockingSides sides = BlockingSides::Auto;
@@ -70,7 +74,7 @@ public:
                           const MaskUse& use = {}, const BlockerSets& sets = {}) const;
 
     const WeldedMesh& mesh() const;
-    const SelfTransferOptions& options() const;  ///< Auto sides as most of the mesh has them
+    const SelfTransferOptions& options() const;  ///< resolved: Auto sides as most of the mesh has them
     std::size_t coarseTriangles() const;
     std::uint32_t groupCount() const, placeCount() const;
     /// Kept beside the tables that all meshes share: the mesh, its levels and groups, the room of a frame (once one has
