@@ -1,6 +1,10 @@
 #include "cli/bake_record.hpp"
 
+#include <cerrno>
+#include <charconv>
+#include <csignal>
 #include <nlohmann/json.hpp>
+#include <vector>
 
 #include "core/error.hpp"
 #include "core/file.hpp"
@@ -68,6 +72,23 @@ void writeRecord(const SceneAsset& asset, const std::string& hash, double second
                                       {"seconds", seconds}}
                                          .dump(2) +
                                      "\n");
+}
+
+void removeLeftovers(const SceneAsset& asset) {
+    const std::string start = asset.file.filename().string() + ".";
+    const fs::path folder = asset.file.has_parent_path() ? asset.file.parent_path() : fs::path(".");
+    std::error_code ignored;
+    std::vector<fs::path> left;
+    for (fs::directory_iterator it(folder, ignored), end; !ignored && it != end; it.increment(ignored)) {
+        const std::string name = it->path().filename().string(), ending = it->path().extension().string();
+        if (!name.starts_with(start) || (ending != ".tmp" && ending != ".provisional")) continue;
+        const std::string digits = it->path().stem().extension().string();  // ".1234" of NAME.1234.tmp
+        pid_t process = 0;
+        const auto [last, failed] = std::from_chars(digits.data() + 1, digits.data() + digits.size(), process);
+        if (digits.size() < 2 || failed != std::errc{} || last != digits.data() + digits.size()) continue;
+        if (process > 0 && ::kill(process, 0) != 0 && errno == ESRCH) left.push_back(it->path());
+    }
+    for (const fs::path& path : left) fs::remove(path, ignored);
 }
 
 }  // namespace nacre::cli

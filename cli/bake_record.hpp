@@ -26,5 +26,7 @@ AssetState stateOf(const SceneAsset& asset);
 std::filesystem::path recordPath(const SceneAsset& asset);
 /// \throws nacre::Error as writeFile
 void writeRecord(const SceneAsset& asset, const std::string& hash, double seconds);
+/// Removes the temporary files of the asset and its record that processes left which are gone: killed half-way.
+void removeLeftovers(const SceneAsset& asset);
 
 }  // namespace nacre::cli

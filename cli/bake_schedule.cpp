@@ -160,6 +160,7 @@ private:
 
     void start(std::size_t i, const std::string& hash) {
         if (const fs::path folder = assets_[i].file.parent_path(); !folder.empty()) fs::create_directories(folder);
+        removeLeftovers(assets_[i]);
         const auto left = static_cast<unsigned>(assets_.size() - done_);
         const unsigned threads = std::max(1u, cores_ / std::min(jobs_, left));
         running_.push_back({i, hash, {}, std::make_unique<ChildProcess>(argumentsOf(assets_[i], threads))});

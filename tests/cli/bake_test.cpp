@@ -145,12 +145,19 @@ TEST_F(Bake, KilledHalfWayThenResumed) {
     ::kill(child, SIGKILL);
     EXPECT_EQ(tests::waitFor(child), 128 + SIGKILL);
     const int before = done();
+    // What a process that is gone may have been writing, and what one that lives or somebody else has there.
+    const std::string record = "m9.exr.bake.json.", dead = std::to_string(child) + ".tmp";
+    const std::string alive = std::to_string(::getpid()) + ".tmp";
+    for (const std::string& name : {record + dead, record + alive, "m9.exr." + dead, std::string("other.exr." + dead)})
+        writeFile(scratch_ / name, "half");
     EXPECT_LT(before, 12) << "killed too late to say anything";
     const json result = report({manifest});
     EXPECT_GE(result["up_to_date"], before);
     EXPECT_GT(result["baked"], 0);
     EXPECT_EQ(result["failed"], 0);
     EXPECT_EQ(report({manifest})["up_to_date"], 12);
+    EXPECT_TRUE(std::filesystem::remove(scratch_ / (record + alive)));
+    EXPECT_TRUE(std::filesystem::remove(scratch_ / ("other.exr." + dead)));
     for (const auto& entry : std::filesystem::directory_iterator(scratch_.folder()))
         EXPECT_THAT(entry.path().string(), ::testing::AnyOf(::testing::EndsWith(".exr"), ::testing::EndsWith(".json")))
             << "nothing half-written is left";
