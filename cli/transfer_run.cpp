@@ -100,7 +100,7 @@ VisibleSets visibleSets(const SelfTransfer& transfer, const TransferPlan& plan,
     VisibleSets sets;
     if (std::filesystem::exists(plan.visibleSets, ignored)) {
         sets = readVisibleSets(plan.visibleSets);
-        if (sets.key != transfer.key() || sets.groups != transfer.groupCount() || sets.rows != transfer.placeCount())
+        if (sets.key != transfer.key() || sets.groups != transfer.groupCount() || sets.places != transfer.placeCount())
             throw Error(fmt::format("{}: expected visible sets of this mesh with these levels of detail, found others",
                                     plan.visibleSets));
         for (const NumberedFrame& frame : frames)
@@ -113,7 +113,7 @@ VisibleSets visibleSets(const SelfTransfer& transfer, const TransferPlan& plan,
     }
     std::size_t bits = 0, set = 0;
     for (const VisibleSets::Window& w : sets.windows) {
-        bits += std::size_t{sets.groups} * sets.rows;
+        bits += std::size_t{sets.groups} * sets.places;
         for (const std::uint64_t word : w.bits) set += static_cast<std::size_t>(std::popcount(word));
     }
     told.windows = sets.windows.size();

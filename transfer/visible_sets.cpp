@@ -15,15 +15,15 @@ namespace {
 static_assert(std::endian::native == std::endian::little, "numbers are written and read as they lie in memory");
 
 constexpr std::string_view kMagic = "NACRE_PV";
-constexpr std::uint32_t kVersion = 1;
+constexpr std::uint32_t kVersion = 2;
 constexpr std::uint64_t kMaxBytes = std::uint64_t{1} << 32;
 
 struct Head {
-    std::uint32_t version = kVersion, groups = 0, rows = 0, windows = 0;
+    std::uint32_t version = kVersion, groups = 0, places = 0, windows = 0;
     std::uint64_t key = 0;
 };
 
-std::uint64_t wordsOf(std::uint64_t groups, std::uint64_t rows) { return groups * ((rows + 63) / 64); }
+std::uint64_t wordsOf(std::uint64_t groups, std::uint64_t places) { return groups * ((places + 63) / 64); }
 
 }  // namespace
 
@@ -39,7 +39,7 @@ VisibleSets findVisibleSets(const SelfTransfer& transfer, std::span<const Number
         if (out.windows.empty() || (windowFrames > 0 && frame.number >= out.windows.back().end)) {
             const int first = windowFrames > 0 ? frame.number / windowFrames * windowFrames : 0;
             out.windows.push_back({first, first + windowFrames, {}});
-            out.windows.back().bits.resize(wordsOf(out.groups, out.rows));
+            out.windows.back().bits.resize(wordsOf(out.groups, out.places));
         }
         if (windowFrames == 0) out.windows.back().end = frame.number + 1;
         transfer.compute(frame.positions, {}, {}, {{}, out.windows.back().bits});
@@ -48,7 +48,7 @@ VisibleSets findVisibleSets(const SelfTransfer& transfer, std::span<const Number
 }
 
 void writeVisibleSets(const VisibleSets& sets, const std::filesystem::path& path) {
-    const Head head{kVersion, sets.groups, sets.rows, static_cast<std::uint32_t>(sets.windows.size()), sets.key};
+    const Head head{kVersion, sets.groups, sets.places, static_cast<std::uint32_t>(sets.windows.size()), sets.key};
     std::string bytes(kMagic);
     const auto put = [&](const void* from, std::size_t count) { bytes.append(static_cast<const char*>(from), count); };
     put(&head, sizeof(head));
@@ -68,12 +68,12 @@ VisibleSets parseVisibleSets(std::span<const std::uint8_t> bytes, const std::str
     if (head.version != kVersion)
         throw Error(fmt::format("{}: expected version {}, found {}", name, kVersion, head.version));
     const std::span<const std::uint8_t> body = bytes.subspan(kMagic.size() + sizeof(head));
-    const double words = static_cast<double>(head.groups) * (static_cast<double>(head.rows) / 64 + 1);
+    const double words = static_cast<double>(head.groups) * (static_cast<double>(head.places) / 64 + 1);
     const bool huge = static_cast<double>(head.windows) * (8 + 8 * words) > static_cast<double>(kMaxBytes);
-    const std::uint64_t expected = huge ? kMaxBytes : head.windows * (8 + 8 * wordsOf(head.groups, head.rows));
+    const std::uint64_t expected = huge ? kMaxBytes : head.windows * (8 + 8 * wordsOf(head.groups, head.places));
     if (body.size() != expected)
         throw Error(fmt::format("{}: expected {} bytes behind the header, found {}", name, expected, body.size()));
-    VisibleSets out{head.key, head.groups, head.rows, {}};
+    VisibleSets out{head.key, head.groups, head.places, {}};
     std::size_t at = 0;
     const auto take = [&](void* to, std::size_t count) {
         if (count > 0) std::memcpy(to, body.data() + at, count);
@@ -88,7 +88,7 @@ VisibleSets parseVisibleSets(std::span<const std::uint8_t> bytes, const std::str
         out.windows.push_back({frames[0], frames[1], {}});
     }
     for (VisibleSets::Window& w : out.windows) {
-        w.bits.resize(wordsOf(head.groups, head.rows));
+        w.bits.resize(wordsOf(head.groups, head.places));
         take(w.bits.data(), 8 * w.bits.size());
     }
     return out;

@@ -1,7 +1,8 @@
-// Potentially visible sets of a known animation (HEMI section 3.2): which blockers each group of vertices ever draws.
+// Potentially visible sets of a known animation (HEMI section 3.2): which triangles ever block for each group
+// of vertices, by their places in SilhouetteMesh.
 //
-// The file, little-endian: "NACRE_PV", four uint32 (version, groups, rows, windows), uint64 key; for each window two
-// int32 (first frame, end), then for each window and group ⌈rows/64⌉ uint64 of bits.
+// The file, little-endian: "NACRE_PV", four uint32 (version, groups, places, windows), uint64 key; for each window two
+// int32 (first frame, end), then for each window and group ⌈places/64⌉ uint64 of bits.
 #pragma once
 
 #include <cstdint>
@@ -16,10 +17,10 @@ namespace nacre {
 struct VisibleSets {
     struct Window {
         int first = 0, end = 0;           ///< frames first … end − 1
-        std::vector<std::uint64_t> bits;  ///< [group][⌈rows/64⌉]
+        std::vector<std::uint64_t> bits;  ///< [group][⌈places/64⌉]
     };
     std::uint64_t key = 0;  ///< SelfTransfer::key of the one that they are of
-    std::uint32_t groups = 0, rows = 0;
+    std::uint32_t groups = 0, places = 0;
     std::vector<Window> windows;
 
     /// Of the window that holds the frame; empty when none does.

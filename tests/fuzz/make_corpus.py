@@ -141,14 +141,14 @@ write("transfer/huge.tv", transfer({**header, "vertices": 2**31 - 1, "blocks": 2
 write("transfer/empty.tv", transfer({**header, "vertices": 0, "source_vertices": 0, "triangles": 0}, [], [], []))
 
 
-def visible(version, groups, rows, windows, words):
-    return (b"NACRE_PV" + struct.pack("<4IQ", version, groups, rows, len(windows), 99) +
+def visible(version, groups, places, windows, words):
+    return (b"NACRE_PV" + struct.pack("<4IQ", version, groups, places, len(windows), 99) +
             b"".join(struct.pack("<2i", *w) for w in windows) + struct.pack(f"<{len(words)}Q", *words))
 
 
-write("visible/two.pv", visible(1, 3, 70, [(0, 4), (4, 9)], range(12)))
-write("visible/cut.pv", visible(1, 3, 70, [(0, 4), (4, 9)], range(11)))
-write("visible/huge.pv", visible(1, 2**32 - 1, 2**32 - 1, [], []))
+write("visible/two.pv", visible(2, 3, 70, [(0, 4), (4, 9)], range(12)))
+write("visible/cut.pv", visible(2, 3, 70, [(0, 4), (4, 9)], range(11)))
+write("visible/huge.pv", visible(2, 2**32 - 1, 2**32 - 1, [], []))
 
 
 def glb(document, rest=b""):
