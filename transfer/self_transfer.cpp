@@ -222,7 +222,7 @@ std::size_t SelfTransfer::State::listBlockers(const FrameBlockers& blockers, con
     };
     std::size_t hidden = 0;
     if (levels.levelCount() == 1) {
-        std::fill(members.begin(), members.end(), (1u << kLanes) - 1);
+        for (std::size_t c = 0; c < members.size(); ++c) members[c] = silhouettes.all(c);
     } else {
         scratch.levels.resize(levels.patches().size() + kLanes);
         blockerKernels.choose(blockers.patches, bounds, angles[group], scratch.levels.data());

@@ -227,7 +227,6 @@ void SilhouetteMesh::see(const Frame& frame, const SilhouetteKernel& kernel, std
         out.look[c] |= kBetween;
         for (const std::uint32_t other : borders_[c]) out.look[other] |= kBetween;
         const Cluster& cluster = clusters_[c];
-        const std::uint32_t full = (1u << cluster.count) - 1;
         const std::uint32_t backs = cluster.backs == BackSides::All    ? 0xffffu
                                     : cluster.backs == BackSides::None ? 0
                                                                        : inside;
@@ -238,7 +237,7 @@ void SilhouetteMesh::see(const Frame& frame, const SilhouetteKernel& kernel, std
             some = kernel.face(frame.clusters[c], lanes, seen, out.members[c], out.own.data() + kLanes * c, sides);
         else
             for (std::size_t t = 0; t < kLanes; ++t) sides[t] = out.members[c] >> t & 1 ? some : 0;
-        if (!uniform || (out.members[c] & full) != full) out.look[c] |= kInside;
+        if (!uniform || out.members[c] != all(c)) out.look[c] |= kInside;
         for (std::uint32_t left = f.overhead & (some | some >> 16) & used; left; left &= left - 1) {
             const int k = __builtin_ctz(left);
             out.poles[k] += kernel.overhead(frame.clusters[c], receivers[static_cast<std::size_t>(k)], k, sides);

@@ -59,6 +59,8 @@ public:
              std::span<const std::span<const std::uint32_t>> corners, std::uint32_t inside, Seen& out) const;
 
     std::size_t clusterCount() const { return clusters_.size(); }
+    /// All of a cluster's triangles.
+    std::uint32_t all(std::size_t cluster) const { return (1u << clusters_[cluster].count) - 1; }
     std::size_t triangleCount() const { return triangleCount_; }
     std::size_t bytes() const;
 

@@ -98,6 +98,7 @@ SelfTransferOptions withCoarse(std::size_t coarse) {
 TEST(SelfTransfer, ASphereShadowsNothing) {
     const Case c = computed(sphere(12, 20), withCoarse(0));
     ASSERT_TRUE(c.mesh.closed);
+    EXPECT_EQ(c.frame.listed, static_cast<double>(c.mesh.triangles.size()));
     const std::vector<double> open = openTransfer(4);
     for (std::size_t v = 0; v < c.positions.size(); ++v) {
         const std::vector<double> y = realHarmonics(4, c.frame.normals[v]);

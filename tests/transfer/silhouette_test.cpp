@@ -29,7 +29,7 @@ Words bySilhouettes(const Shape& shape, std::span<const Receiver> receivers, std
     SilhouetteMesh::Frame frame;
     mesh.place(shape.points, 1, frame);
     SilhouetteMesh::Seen seen;
-    seen.members.assign(mesh.clusterCount(), 0xffff);
+    for (std::size_t c = 0; c < mesh.clusterCount(); ++c) seen.members.push_back(mesh.all(c));
     const std::vector<std::span<const std::uint32_t>> corners(receivers.size());
     mesh.see(frame, kernel, receivers, corners, 0, seen);
     std::vector<std::int16_t> layers(layerCounts(size), 0);
