@@ -66,13 +66,9 @@ double wallSeconds() {
 
 }  // namespace
 
-SelfTransferOptions fastTransfer() { return {}; }
+SelfTransferOptions fastTransfer() { return {.coarse = 0}; }
 
-SelfTransferOptions qualityTransfer() {
-    SelfTransferOptions options;
-    options.mask = 64;
-    return options;
-}
+SelfTransferOptions qualityTransfer() { return {.mask = 64, .coarse = 0}; }
 
 std::string text(const SelfTransferOptions& o) {
     const std::string sides = o.sides == BlockingSides::Auto    ? ""
