@@ -66,18 +66,7 @@ VectorSet chosenSet(VectorSet set) {
 
 MaskKernel maskKernel(int size, VectorSet set) {
     set = chosenSet(set);
-    switch (size) {
-        case 16:
-            return kernelOf<16>(set);
-        case 32:
-            return kernelOf<32>(set);
-        case 64:
-            return kernelOf<64>(set);
-        case 128:
-            return kernelOf<128>(set);
-        default:
-            throw std::invalid_argument("mask: expected a size of 16, 32, 64 or 128, found " + std::to_string(size));
-    }
+    return forMaskSize(size, [&](auto n) { return kernelOf<n>(set); });
 }
 
 }  // namespace nacre

@@ -2,6 +2,9 @@
 #pragma once
 
 #include <cstdint>
+#include <stdexcept>
+#include <string>
+#include <type_traits>
 #include <vector>
 
 #include "core/scene.hpp"
@@ -47,6 +50,23 @@ struct MaskKernel {
 
 /// \param size  of the mask: 16, 32, 64 or 128 \throws std::invalid_argument also when the processor lacks the set
 MaskKernel maskKernel(int size, VectorSet set = VectorSet::Widest);
+
+/// of(N) with the size as a constant. \throws std::invalid_argument for other sizes
+template <class Of>
+auto forMaskSize(int size, const Of& of) {
+    switch (size) {
+        case 16:
+            return of(std::integral_constant<int, 16>{});
+        case 32:
+            return of(std::integral_constant<int, 32>{});
+        case 64:
+            return of(std::integral_constant<int, 64>{});
+        case 128:
+            return of(std::integral_constant<int, 128>{});
+        default:
+            throw std::invalid_argument("mask: expected a size of 16, 32, 64 or 128, found " + std::to_string(size));
+    }
+}
 
 inline std::size_t maskWords(int size) {
     return static_cast<std::size_t>(size) * static_cast<std::size_t>((size + 31) / 32);

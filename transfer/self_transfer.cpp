@@ -61,7 +61,6 @@ struct SelfTransfer::State {
     WeldedMesh mesh;
     SelfTransferOptions options;
     CornersOfVertices corners;
-    std::size_t mostCorners = 0;  ///< of a vertex
     MovingLevels levels;
     BlockingParts parts;
     std::vector<std::vector<std::uint32_t>> groups;
@@ -110,8 +109,6 @@ SelfTransfer::State::State(WeldedMesh m, std::span<const glm::vec3> rest, const 
       integrals(maskIntegrals(o.mask, o.order)),
       rotation(o.order),
       open(openTransfer(o.order)) {
-    for (std::size_t v = 0; v < mesh.vertexCount(); ++v)
-        mostCorners = std::max<std::size_t>(mostCorners, corners.first[v + 1] - corners.first[v]);
     options.sides = parts.sides;
     options.coarse = o.coarse.value_or(usualCoarse(mesh.triangles.size()));
     makeSilhouettes(rest);
@@ -356,7 +353,8 @@ std::size_t SelfTransfer::bytes() const {
     const std::size_t vertices = s.mesh.vertexCount();
     std::size_t sum = bytesOf(s.mesh.weldOf) + bytesOf(s.mesh.firstOf) + bytesOf(s.mesh.triangles) + s.corners.bytes() +
                       s.levels.bytes() + bytesOf(s.parts.sheets) + bytesOf(s.parts.inside) + bytesOf(s.groups) +
-                      bytesOf(s.near) + bytesOf(s.nearPatches) + bytesOf(s.angles) + s.silhouettes.bytes();
+                      bytesOf(s.near) + bytesOf(s.nearPatches) + bytesOf(s.angles) + bytesOf(s.patchParts) +
+                      s.silhouettes.bytes();
     for (const std::unique_ptr<FrameBlockers>& blockers : s.spare) sum += blockers->bytes();
     return sum + vertices * (2 * sizeof(glm::vec3) + s.open.size() * s.open.size() * sizeof(float));
 }

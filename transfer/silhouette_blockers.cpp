@@ -40,7 +40,6 @@ SilhouetteMesh::SilhouetteMesh(std::span<const std::vector<glm::uvec3>> levels, 
             normals.push_back(glm::dot(n, n) > 0 ? glm::normalize(n) : glm::vec3(0, 0, 1));
         }
         slots_.emplace_back(levels[l].size());
-        triangleCount_ += levels[l].size();
         for (const BackSides kind : {BackSides::None, BackSides::Inside, BackSides::All}) {
             std::vector<glm::vec3> ofKind = normals;
             std::vector<std::uint32_t> some;

@@ -61,7 +61,6 @@ public:
     std::size_t clusterCount() const { return clusters_.size(); }
     /// All of a cluster's triangles.
     std::uint32_t all(std::size_t cluster) const { return (1u << clusters_[cluster].count) - 1; }
-    std::size_t triangleCount() const { return triangleCount_; }
     std::size_t bytes() const;
 
 private:
@@ -81,7 +80,6 @@ private:
     EdgeSides edges_;
     std::vector<std::vector<std::uint32_t>> borders_;  ///< [cluster] clusters at which its edges to others lie
     std::vector<glm::uvec3> edgesOf_;                  ///< [place] of a triangle's corners c and c + 1
-    std::size_t triangleCount_ = 0;
 };
 
 }  // namespace nacre

@@ -90,7 +90,7 @@ void differ(const EdgeSides& edges, const std::uint32_t* sides, const std::uint8
 NACRE_INLINE Floats turning(const Floats& x0, const Floats& y0, const Floats& x1, const Floats& y1) { return x0 * y1 - x1 * y0; }
 
 /// Whether the edge turns about the pole the way that azimuths grow; the opposite for the edge reversed. An edge right
-/// through the pole passes beside (0, ε): `azimuthRow` of y − 1e-30 agrees with that.
+/// through the pole passes beside (0, ε): `rowsBefore` of y − 1e-30 agrees with that.
 NACRE_INLINE Mask turnsLeft(const Floats& turn, const Floats& x0, const Floats& y0, const Floats& x1, const Floats& y1) {
     return (turn > Floats{}) | ((turn == Floats{}) & ((x1 > x0) | ((x1 == x0) & (y1 > y0))));
 }
