@@ -75,9 +75,10 @@ std::string text(const SelfTransferOptions& o) {
                               : o.sides == BlockingSides::Front ? ", front sides"
                               : o.sides == BlockingSides::Fine  ? ", both sides of the mesh itself"
                                                                 : ", both sides";
-    if (o.coarse == 0u) return fmt::format("mask {}, no levels{}", o.mask, sides);
-    return fmt::format("mask {}, coarse {}, angle {:g}, rings {}{}", o.mask, o.coarse.value_or(kUsualCoarse),
-                       o.lodAngle, o.rings, sides);
+    const std::string nearby = o.nearby ? fmt::format(", nearby {:g}", *o.nearby) : "";
+    if (o.coarse == 0u) return fmt::format("mask {}, no levels{}{}", o.mask, nearby, sides);
+    return fmt::format("mask {}, coarse {}, angle {:g}, rings {}{}{}", o.mask, o.coarse.value_or(kUsualCoarse),
+                       o.lodAngle, o.rings, nearby, sides);
 }
 
 std::string text(const PaperMethodOptions& o) {
@@ -161,6 +162,8 @@ std::vector<TransferMeasurement> sweepTransfer(const std::vector<TransferMesh>& 
             add(mask, 0, angle);
             add(mask, kUsualCoarse, angle);
         }
+        for (const double nearby : {0.0, 1.0, 4.0})
+            all.push_back(ours(mesh, {.mask = 32, .coarse = 0, .nearby = nearby}));
         if (!options.quick) {
             for (const double other : {0.05, 0.1, 0.15, 0.4, 0.6, 1.0}) add(32, kUsualCoarse, other);
             for (const std::size_t coarse : {75, 150, 600}) add(32, coarse, angle);

@@ -47,6 +47,13 @@ void takeSpecular(Settings& s, const std::string& text) {
     gloss(s).specular = v[0];
 }
 
+void takeNearby(Settings& s, const std::string& text) {
+    double v[1];
+    if (!parseNumbers(text, v) || !(std::isfinite(v[0]) && v[0] >= 0))
+        throw UsageError(fmt::format("expected a number of radii, 0 or more, found '{}'", text));
+    s.plan.options.nearby = v[0];
+}
+
 void takeEye(Settings& s, const std::string& text) {
     double v[3];
     const Vec3 eye = parseNumbers(text, v) ? Vec3(v[0], v[1], v[2]) : Vec3(NAN);
@@ -113,6 +120,7 @@ json description(const Context& context, const Settings& s, const TransferRun& r
                   {"rings", o.rings},
                   {"coarse", run.coarse},
                   {"lod_angle", o.lodAngle},
+                  {"nearby", o.nearby.value_or(usualNearby(o.mask))},
                   {"sides", nameOf(run.sides)}}},
                 {"closed", run.closed},
                 {"coarse_triangles", run.coarseTriangles},
@@ -315,6 +323,10 @@ std::vector<Option> options(const std::shared_ptr<Settings>& s) {
                  s->plan.options.lodAngle = v;
                  s->lodAngle = true;
              }))},
+        {"--nearby", "R",
+         "Sixteen vertices share the silhouettes of what is farther than R radii of their group; 0: each finds its own "
+         "(default mask / 16, which errs a tenth more at most)",
+         own("--nearby", [s](const std::string& given) { takeNearby(*s, given); })},
         {"--pvs", "FILE",
          "Potentially visible sets: read from FILE, or made from these frames and written there; blockers that no "
          "frame draws aren't listed",

@@ -30,6 +30,8 @@ NACRE_INLINE Floats distanceFrom(const std::vector<float>* corners, std::size_t 
     return root(choose(over & (area > Floats{}), height * height / (area + splat(1e-30f)), toEdges));
 }
 
+typedef std::uint8_t Bytes __attribute__((vector_size(kWide)));
+
 void choose(const PatchColumns& patches, const GroupBounds& group, float angle, std::uint8_t* levels) {
     for (std::size_t i = 0; i < patches.count; i += kWide) {
         const Columns d = columnsAt(patches.centre, i) - group.centre;
@@ -41,7 +43,7 @@ void choose(const PatchColumns& patches, const GroupBounds& group, float angle, 
         for (std::size_t l = 1; l < patches.off.size(); ++l)
             level = load(&patches.off[l][i]) <= allowed ? Mask{} + static_cast<std::int32_t>(l) : level;
         level |= ~mayRise(group, d, distance, load(&patches.radius[i])) & kHiddenPatch;
-        for (int k = 0; k < kWide; ++k) levels[i + static_cast<std::size_t>(k)] = static_cast<std::uint8_t>(level[k]);
+        store(levels + i, __builtin_convertvector(level, Bytes));
     }
 }
 

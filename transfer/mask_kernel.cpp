@@ -49,7 +49,7 @@ VectorSet vectorSetFromString(const std::string& name) {
 bool processorHas([[maybe_unused]] VectorSet set) {
 #if defined(__x86_64__)
     if (set == VectorSet::Avx512) return hasAvx512();
-    if (set == VectorSet::Avx2) return __builtin_cpu_supports("avx2");
+    if (set == VectorSet::Avx2) return hasAvx2();
     return true;
 #else
     return set == VectorSet::Plain || set == VectorSet::Widest;

@@ -15,8 +15,8 @@ std::vector<std::vector<std::uint32_t>> groupReceivers(std::span<const glm::vec3
         low = glm::min(low, positions[v]);
         high = glm::max(high, positions[v]);
     }
-    // Opposite normals part as a quarter of the mesh's size does: lists are culled by both.
-    const float facing = all.empty() ? 0.0f : 0.125f * glm::length(high - low);
+    // Opposite normals part as a 32nd of the mesh's size does: what a group has in common is mostly by its extent.
+    const float facing = all.empty() ? 0.0f : 0.015f * glm::length(high - low);
     const auto key = [&](std::uint32_t v, int axis) {
         return axis < 3 ? positions[v][axis] : facing * normals[v][axis - 3];
     };
@@ -64,6 +64,17 @@ GroupBounds boundsOfGroup(std::span<const std::uint32_t> group, std::span<const 
         bounds.spread = std::max(bounds.spread, glm::distance(normals[v], bounds.normal));
     }
     return bounds;
+}
+
+GroupBox boxOfGroup(std::span<const std::uint32_t> group, std::span<const glm::vec3> positions) {
+    glm::vec3 low(positions[group[0]]), high = low;
+    for (const std::uint32_t v : group) {
+        low = glm::min(low, positions[v]);
+        high = glm::max(high, positions[v]);
+    }
+    GroupBox box{0.5f * (low + high), 0.5f * (high - low), 0};
+    for (const std::uint32_t v : group) box.radius = std::max(box.radius, glm::distance(positions[v], box.middle));
+    return box;
 }
 
 /// With normal n + e, |e| ≤ spread: (n + e)·(x − p) ≤ n·(c − centre) + |n|(radii) + spread (|c − centre| + radii).

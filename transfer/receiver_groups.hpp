@@ -23,6 +23,13 @@ struct GroupBounds {
 GroupBounds boundsOfGroup(std::span<const std::uint32_t> group, std::span<const glm::vec3> positions,
                           std::span<const glm::vec3> normals);
 
+/// A box about a group's points, and how far they are from its middle.
+struct GroupBox {
+    glm::vec3 middle{0}, half{0};
+    float radius = 0;
+};
+GroupBox boxOfGroup(std::span<const std::uint32_t> group, std::span<const glm::vec3> positions);
+
 /// Whether nothing in a ball rises over the plane of any of the group's vertices.
 bool belowHorizon(const GroupBounds& group, const glm::vec3& centre, float radius);
 

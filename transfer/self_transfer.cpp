@@ -65,10 +65,12 @@ struct SelfTransfer::State {
     BlockingParts parts;
     std::vector<std::vector<std::uint32_t>> groups;
     std::vector<std::vector<SilhouetteMesh::Part>> near;  ///< [group] triangles of the mesh within the rings
-    std::vector<std::vector<std::uint8_t>> nearPatches;   ///< [group][patch] of sheets, whose levels would lie over it
+    std::vector<std::vector<std::uint32_t>> nearPatches;  ///< [group] of sheets, whose levels would lie over it
+    float nearby = 0;                                     ///< radii; infinity: all is near
     std::vector<float> angles;                            ///< [group] lodAngle, less where little light gets to
     SilhouetteMesh silhouettes;
-    std::vector<std::vector<std::vector<SilhouetteMesh::Part>>> patchParts;  ///< [patch][level]
+    std::vector<SilhouetteMesh::Part> patchParts;
+    std::vector<std::uint32_t> firstPart;  ///< [patch × levels + level], one more: in patchParts
     SilhouetteKernel kernel;
     BlockerKernel blockerKernels;
     MaskKernel maskKernels;
@@ -111,6 +113,8 @@ SelfTransfer::State::State(WeldedMesh m, std::span<const glm::vec3> rest, const 
       open(openTransfer(o.order)) {
     options.sides = parts.sides;
     options.coarse = o.coarse.value_or(usualCoarse(mesh.triangles.size()));
+    options.nearby = o.nearby.value_or(usualNearby(o.mask));
+    nearby = *options.nearby > 0 ? static_cast<float>(*options.nearby) : std::numeric_limits<float>::infinity();
     makeSilhouettes(rest);
     makeGroups(rest, {});
 }
@@ -143,11 +147,14 @@ void SelfTransfer::State::makeSilhouettes(std::span<const glm::vec3> rest) {
             backs[l].push_back(parts.sheets[t.x] ? BackSides::All : l == 0 ? inner : BackSides::None);
     }
     silhouettes = SilhouetteMesh(triangles, levels.unpushed(rest), backs, patchesInOrder(rest));
-    for (const BlockerLevels::Patch& patch : levels.patches()) {
-        patchParts.emplace_back();
-        for (std::size_t l = 0; l < levels.levelCount(); ++l)
-            patchParts.back().push_back(silhouettes.partsOf(l, patch.triangles[l]));
-    }
+    if (levels.levelCount() == 1) return;
+    for (const BlockerLevels::Patch& patch : levels.patches())
+        for (std::size_t l = 0; l < levels.levelCount(); ++l) {
+            firstPart.push_back(static_cast<std::uint32_t>(patchParts.size()));
+            const std::vector<SilhouetteMesh::Part> some = silhouettes.partsOf(l, patch.triangles[l]);
+            patchParts.insert(patchParts.end(), some.begin(), some.end());
+        }
+    firstPart.push_back(static_cast<std::uint32_t>(patchParts.size()));
 }
 
 /// Vertices that need more blockers than others, dark ones and those that see backs, are in groups of their own.
@@ -174,7 +181,7 @@ void SelfTransfer::State::makeGroups(std::span<const glm::vec3> rest, std::span<
 /// coarse one lies over the group.
 void SelfTransfer::State::findNear() {
     near.assign(groups.size(), {});
-    nearPatches.assign(groups.size(), std::vector<std::uint8_t>(levels.patches().size(), 0));
+    nearPatches.assign(groups.size(), {});
     if (levels.levelCount() == 1) return;
     for (std::size_t g = 0; g < groups.size(); ++g) {
         std::vector<std::uint32_t> reached = groups[g], triangles;
@@ -182,7 +189,8 @@ void SelfTransfer::State::findNear() {
             triangles.clear();
             for (const std::uint32_t v : reached) {
                 if (parts.sheets[v])
-                    for (const std::uint32_t patch : levels.joined(levels.coarsestOf(v))) nearPatches[g][patch] = 1;
+                    for (const std::uint32_t patch : levels.joined(levels.coarsestOf(v)))
+                        nearPatches[g].push_back(patch);
                 for (std::uint32_t i = corners.first[v]; i < corners.first[v + 1]; ++i)
                     triangles.push_back(corners.order[i] / 3);
             }
@@ -192,6 +200,7 @@ void SelfTransfer::State::findNear() {
                 for (int c = 0; c < 3; ++c) reached.push_back(mesh.triangles[t][c]);
             sortUnique(reached);
         }
+        sortUnique(nearPatches[g]);
         near[g] = silhouettes.partsOf(0, triangles);
     }
 }
@@ -214,23 +223,23 @@ std::size_t SelfTransfer::State::listBlockers(const FrameBlockers& blockers, con
                                               std::size_t group, const BlockerSets& sets, Scratch& scratch) const {
     std::vector<std::uint32_t>& members = scratch.seen.members;
     members.assign(silhouettes.clusterCount(), 0);
-    const auto add = [&](const std::vector<SilhouetteMesh::Part>& some) {
-        for (const SilhouetteMesh::Part& part : some) members[part.cluster] |= part.triangles;
-    };
     std::size_t hidden = 0;
     if (levels.levelCount() == 1) {
         for (std::size_t c = 0; c < members.size(); ++c) members[c] = silhouettes.all(c);
     } else {
         scratch.levels.resize(levels.patches().size() + kLanes);
         blockerKernels.choose(blockers.patches, bounds, angles[group], scratch.levels.data());
-        add(near[group]);
+        // A coarse triangle next to the vertex is harmless while its back lets light through.
+        for (const std::uint32_t p : nearPatches[group]) scratch.levels[p] &= kHiddenPatch;
+        const auto add = [&](const SilhouetteMesh::Part& part) { members[part.cluster] |= part.triangles; };
+        std::for_each(near[group].begin(), near[group].end(), add);
         for (std::size_t p = 0; p < levels.patches().size(); ++p) {
-            // A coarse triangle next to the vertex is harmless while its back lets light through.
-            const std::size_t level = nearPatches[group][p] ? 0 : scratch.levels[p] & ~kHiddenPatch;
+            const std::size_t level = scratch.levels[p] & ~kHiddenPatch;
+            const std::uint32_t* first = &firstPart[levels.levelCount() * p + level];
             if (scratch.levels[p] & kHiddenPatch)
                 hidden += levels.patches()[p].triangles[level].size();
             else
-                add(patchParts[p][level]);
+                std::for_each(&patchParts[first[0]], &patchParts[first[1]], add);
         }
     }
     if (!sets.visible.empty())
@@ -238,7 +247,8 @@ std::size_t SelfTransfer::State::listBlockers(const FrameBlockers& blockers, con
             members[c] &=
                 static_cast<std::uint32_t>(sets.visible[group * setWords() + c / 4] >> c % 4 * kLanes) & 0xffffu;
     std::size_t listed = hidden;
-    for (const std::uint32_t some : members) listed += static_cast<std::size_t>(std::popcount(some));
+    for (const std::uint32_t some : members)
+        if (some) listed += static_cast<std::size_t>(std::popcount(some));
     return listed;
 }
 
@@ -272,7 +282,8 @@ GroupResult SelfTransfer::State::computeGroup(std::size_t group, std::span<const
     }
     const GroupBounds bounds = boundsOfGroup(vertices, positions, frame.normals);
     result.listed = listBlockers(blockers, bounds, group, sets, scratch) * vertices.size();
-    silhouettes.see(blockers.silhouettes, kernel, scratch.receivers, meeting, inside, scratch.seen);
+    silhouettes.see(blockers.silhouettes, kernel, scratch.receivers, boxOfGroup(groups[group], positions), meeting,
+                    inside, nearby, scratch.seen);
     if (!sets.drawn.empty())
         for (std::size_t c = 0; c < silhouettes.clusterCount(); ++c)
             sets.drawn[group * setWords() + c / 4] |= std::uint64_t{scratch.seen.blocking(c)} << c % 4 * kLanes;
@@ -313,6 +324,8 @@ SelfTransfer::SelfTransfer(WeldedMesh mesh, std::span<const glm::vec3> rest, con
                            std::span<const std::vector<glm::vec3>> poses) {
     require(options.rings == 1 || options.rings == 2, "transfer: expected 1 or 2 rings");
     require(std::isfinite(options.lodAngle) && options.lodAngle >= 0, "transfer: expected an angle of 0 or more");
+    require(!options.nearby || (*options.nearby >= 0 && std::isfinite(*options.nearby)),
+            "transfer: expected radii of 0 or more");
     require(rest.size() == mesh.vertexCount(), "transfer: expected a position a vertex");
     state_ = std::make_unique<State>(std::move(mesh), rest, options);
     State& s = *state_;

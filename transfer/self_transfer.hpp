@@ -15,6 +15,9 @@ inline constexpr std::size_t kUsualCoarse = 300;  ///< SelfTransferOptions::coar
 /// Levels pay on meshes of more than 20000 triangles: at 15000 they win a third, at 100000 nine times.
 inline constexpr std::size_t usualCoarse(std::size_t triangles) { return triangles > 20000 ? kUsualCoarse : 0; }
 
+/// Errors by sharing silhouettes stay within a tenth of those by the mask's bits.
+inline constexpr double usualNearby(int mask) { return mask / 16.0; }
+
 struct SelfTransferOptions {
     int mask = 32;  ///< N of N × N bits: 16, 32, 64, 128
     int order = 4;  ///< highest band of harmonics, 0 to 6: (order + 1)² coefficients
@@ -23,6 +26,10 @@ struct SelfTransferOptions {
     int rings = 1;  ///< with levels, the mesh itself blocks within so many rings of triangles: 1 or 2
     double lodAngle =
         0.25;  ///< [rad] a level is used where it is off by less, seen from the vertex; less where it is dark
+    /// Sixteen vertices near each other see the same side of what is farther from them than so many of their group's
+    /// radii, that which its middle sees: their silhouettes there are found once. 0 = each its own; none =
+    /// usualNearby's.
+    std::optional<double> nearby{};
     BlockingSides sides = BlockingSides::Auto;
     VectorSet vectors = VectorSet::Widest;
     unsigned threads = 0;

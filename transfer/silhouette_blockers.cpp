@@ -140,7 +140,7 @@ std::vector<SilhouetteMesh::Part> SilhouetteMesh::partsOf(std::size_t level,
 }
 
 void SilhouetteMesh::placeCluster(std::span<const glm::vec3> points, std::size_t cluster, TriangleCluster& out) const {
-    glm::vec3 low(1e30f), high(-1e30f), axis(0);
+    glm::vec3 low(1e30f), high(-1e30f);
     for (std::size_t k = 0; k < kLanes; ++k) {
         const glm::uvec3& t = triangles_[kLanes * cluster + k];
         const glm::vec3 a = points[t.x], b = points[t.y], c = points[t.z];
@@ -155,20 +155,14 @@ void SilhouetteMesh::placeCluster(std::span<const glm::vec3> points, std::size_t
         out.offset[k] = glm::dot(n, a);
         out.reach[k] = std::max({glm::distance(a, middle), glm::distance(b, middle), glm::distance(c, middle)});
         for (int xyz = 0; xyz < 3; ++xyz) out.normal[xyz][k] = n[xyz], out.middle[xyz][k] = middle[xyz];
-        axis += n;
     }
     const std::uint32_t count = clusters_[cluster].count;
     const glm::vec3 centre = 0.5f * (low + high);
-    axis /= static_cast<float>(count);
-    out.spread = out.slab = out.radius = 0;
-    for (std::size_t k = 0; k < count; ++k) {
-        const glm::vec3 n(out.normal[0][k], out.normal[1][k], out.normal[2][k]);
-        out.spread = std::max(out.spread, glm::distance(n, axis));
-        out.slab = std::max(out.slab, std::abs(glm::dot(n, centre) - out.offset[k]));
+    out.radius = 0;
+    for (std::size_t k = 0; k < count; ++k)
         for (int c = 0; c < 3; ++c)
             out.radius = std::max(out.radius, glm::distance(points[triangles_[kLanes * cluster + k][c]], centre));
-    }
-    for (int c = 0; c < 3; ++c) out.centre[c] = centre[c], out.axis[c] = axis[c];
+    for (int c = 0; c < 3; ++c) out.centre[c] = centre[c];
 }
 
 void SilhouetteMesh::place(std::span<const glm::vec3> points, unsigned threads, Frame& out) const {
@@ -191,9 +185,9 @@ void SilhouetteMesh::place(std::span<const glm::vec3> points, unsigned threads, 
 }
 
 void SilhouetteMesh::see(const Frame& frame, const SilhouetteKernel& kernel, std::span<const Receiver> receivers,
-                         std::span<const std::span<const std::uint32_t>> corners, std::uint32_t inside,
-                         Seen& out) const {
-    const ReceiverLanes lanes = receiverLanes(receivers);
+                         const GroupBox& box, std::span<const std::span<const std::uint32_t>> corners,
+                         std::uint32_t inside, float nearby, Seen& out) const {
+    const ReceiverLanes lanes = receiverLanes(receivers, box);
     const std::uint32_t used = (1u << receivers.size()) - 1;
     out.sides.resize(triangles_.size() + 1);
     out.sides.back() = 0;
@@ -201,7 +195,9 @@ void SilhouetteMesh::see(const Frame& frame, const SilhouetteKernel& kernel, std
     out.dealt.room = 2 * ends_.size() + 2 * kLanes;  // each at most once, and once as an edge under which all is
     out.dealt.items.resize(out.dealt.room * kLanes);
     std::fill_n(out.dealt.counts, kLanes, std::size_t{0});
-    std::fill_n(out.poles, kLanes, 0);
+    out.nearPole.room = triangles_.size() + kLanes;
+    out.nearPole.items.resize(out.nearPole.room * kLanes);
+    std::fill_n(out.nearPole.counts, kLanes, std::size_t{0});
     out.own.resize(triangles_.size());
     const auto markOwn = [&](bool mark) {
         for (std::size_t k = 0; k < receivers.size(); ++k)
@@ -222,6 +218,7 @@ void SilhouetteMesh::see(const Frame& frame, const SilhouetteKernel& kernel, std
             if (std::exchange(out.seen[c], 0)) std::fill_n(sides, kLanes, 0u);
             continue;
         }
+        const TriangleCluster& placed = frame.clusters[c];
         out.seen[c] = 1;
         out.look[c] |= kBetween;
         for (const std::uint32_t other : borders_[c]) out.look[other] |= kBetween;
@@ -230,19 +227,19 @@ void SilhouetteMesh::see(const Frame& frame, const SilhouetteKernel& kernel, std
                                     : cluster.backs == BackSides::None ? 0
                                                                        : inside;
         const std::uint32_t seen = f.above | (f.above & backs) << 16;
-        const bool uniform = (f.above & ~(f.facing | f.away)) == 0;
-        std::uint32_t some = (f.facing | f.away << 16) & seen;
-        if (!uniform)
-            some = kernel.face(frame.clusters[c], lanes, seen, out.members[c], out.own.data() + kLanes * c, sides);
-        else
-            for (std::size_t t = 0; t < kLanes; ++t) sides[t] = out.members[c] >> t & 1 ? some : 0;
-        if (!uniform || out.members[c] != all(c)) out.look[c] |= kInside;
-        for (std::uint32_t left = f.overhead & (some | some >> 16) & used; left; left &= left - 1) {
-            const int k = __builtin_ctz(left);
-            out.poles[k] += kernel.overhead(frame.clusters[c], receivers[static_cast<std::size_t>(k)], k, sides);
-        }
+        const glm::vec3 away = glm::vec3(placed.centre[0], placed.centre[1], placed.centre[2]) - lanes.box.middle;
+        const float nearest = nearby * box.radius + placed.radius;
+        const ClusterFaces faces = kernel.face(placed, lanes, glm::dot(away, away) > nearest * nearest, seen,
+                                               out.members[c], out.own.data() + kLanes * c, sides);
+        if (!faces.alike) out.look[c] |= kInside;
+        const std::uint32_t some = faces.some;
+        kernel.nearPole(placed, static_cast<std::uint32_t>(c), receivers.data(),
+                        f.overhead & (some | some >> 16) & used, sides, out.nearPole);
     }
     markOwn(false);
+    for (std::size_t k = 0; k < receivers.size(); ++k)
+        out.poles[k] = kernel.overhead(frame.clusters.data(), &out.nearPole.items[out.nearPole.room * k],
+                                       out.nearPole.counts[k], receivers[k]);
     kernel.differ(edges_, out.sides.data(), out.look.data(), out.differing);
     kernel.deal(frame.edges.data(), lanes, out.differing, out.dealt);
     // The triangles at a receiver span no solid angle, but hide all that lies under them.

@@ -31,6 +31,7 @@ public:
         std::vector<std::uint8_t> seen;      ///< [cluster] whether some of its sides may not be 0
         std::vector<std::uint32_t> own;      ///< [place] receivers that the triangle meets
         std::vector<std::uint32_t> sides;    ///< [cluster][16] as SilhouetteKernel::face; one more, of what isn't there
+        PoleTriangles nearPole;
         DifferingEdges differing;
         DealtEdges dealt;
         std::int32_t poles[kLanes] = {};
@@ -53,10 +54,14 @@ public:
     void place(std::span<const glm::vec3> points, unsigned threads, Frame& out) const;
 
     /// The edges that bound what out.members hide from each receiver.
-    /// \param corners  [receiver][] of the triangles of level 0 that meet there, 3 × triangle + corner
-    /// \param inside  bits of the receivers that see Inside backs
+    /// \param box  about the receivers, or more \param corners  [receiver][] of the triangles of level 0 that meet
+    /// there, 3 × triangle + corner \param inside  bits of the receivers that see Inside backs \param nearby  triangles
+    /// of clusters farther from the box's middle than so many of its radii show all receivers the side that they show
+    /// the middle; infinity: none do. What is taken for the wrong side is seen nearly edge-on, and counts against its
+    /// neighbours: what they hide together moves by an error of second order
     void see(const Frame& frame, const SilhouetteKernel& kernel, std::span<const Receiver> receivers,
-             std::span<const std::span<const std::uint32_t>> corners, std::uint32_t inside, Seen& out) const;
+             const GroupBox& box, std::span<const std::span<const std::uint32_t>> corners, std::uint32_t inside,
+             float nearby, Seen& out) const;
 
     std::size_t clusterCount() const { return clusters_.size(); }
     /// All of a cluster's triangles.

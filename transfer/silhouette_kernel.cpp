@@ -1,6 +1,7 @@
 #include "transfer/silhouette_kernel.hpp"
 
 #include <algorithm>
+#include <cstddef>
 #include <cstring>
 #include <stdexcept>
 #include <string>
@@ -18,12 +19,14 @@ template <int N>
 SilhouetteKernel kernelOf([[maybe_unused]] VectorSet set) {
 #if defined(__x86_64__)
     if (set == VectorSet::Avx512)
-        return {avx512::classify, avx512::face,   avx512::differ,   avx512::overhead,
-                avx512::deal,     avx512::add<N>, avx512::finish<N>};
+        return {avx512::classify, avx512::face, avx512::differ, avx512::nearPole,
+                avx512::overhead, avx512::deal, avx512::add<N>, avx512::finish<N>};
     if (set == VectorSet::Avx2)
-        return {avx2::classify, avx2::face, avx2::differ, avx2::overhead, avx2::deal, avx2::add<N>, avx2::finish<N>};
+        return {avx2::classify, avx2::face, avx2::differ, avx2::nearPole,
+                avx2::overhead, avx2::deal, avx2::add<N>, avx2::finish<N>};
 #endif
-    return {plain::classify, plain::face, plain::differ, plain::overhead, plain::deal, plain::add<N>, plain::finish<N>};
+    return {plain::classify, plain::face, plain::differ, plain::nearPole,
+            plain::overhead, plain::deal, plain::add<N>, plain::finish<N>};
 }
 
 }  // namespace
@@ -32,14 +35,13 @@ void DifferingEdges::resize(std::size_t edges) {
     for (std::vector<std::uint32_t>* column : {&edge, &sides, &first}) column->resize(edges + kLanes);
 }
 
-ReceiverLanes receiverLanes(std::span<const Receiver> receivers) {
+ReceiverLanes receiverLanes(std::span<const Receiver> receivers, const GroupBox& box) {
     ReceiverLanes out;
+    out.box = box;
     for (std::size_t k = 0; k < kLanes; ++k) {
         const Receiver& r = receivers[k < receivers.size() ? k : 0];
         for (int c = 0; c < 3; ++c) {
             out.point[c][k] = r.point[c];
-            out.tangent[c][k] = r.tangent[c];
-            out.bitangent[c][k] = r.bitangent[c];
             out.normal[c][k] = r.normal[c];
         }
         out.height[k] = r.normal.x * r.point.x + r.normal.y * r.point.y + r.normal.z * r.point.z;

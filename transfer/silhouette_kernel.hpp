@@ -20,24 +20,27 @@ struct TriangleCluster {
     alignas(64) float corners[9][kLanes];
     float normal[3][kLanes], offset[kLanes];  ///< of their planes: unit normals, outward, or 0
     float middle[3][kLanes], reach[kLanes];   ///< balls about them
-    /// A ball about all, normals within `spread` of `axis` (as lengths of differences), planes within `slab` of the
-    /// ball's centre.
-    float centre[3] = {}, radius = 0;
-    float axis[3] = {}, spread = 0;
-    float slab = 0;
+    float centre[3] = {}, radius = 0;         ///< a ball about all
 };
 
 /// Sixteen receivers side by side. Those that aren't used repeat the first.
 struct ReceiverLanes {
-    alignas(64) float point[3][kLanes], tangent[3][kLanes], bitangent[3][kLanes], normal[3][kLanes];
+    alignas(64) float point[3][kLanes], normal[3][kLanes];
     float height[kLanes];  ///< of the points along the normals
+    GroupBox box;          ///< about the points, or more
 };
-ReceiverLanes receiverLanes(std::span<const Receiver> receivers);
+ReceiverLanes receiverLanes(std::span<const Receiver> receivers, const GroupBox& box);
 
-/// What a cluster is for each of sixteen receivers, as bits: whether some of it may rise over the horizon, whether all
-/// its triangles face the receiver, whether none does, and whether some may lie straight above.
+/// What a cluster is for each of sixteen receivers, as bits: whether some of it may rise over the horizon, and whether
+/// some may lie straight above.
 struct ClusterFlags {
-    std::uint32_t above, facing, away, overhead;
+    std::uint32_t above, overhead;
+};
+
+/// What a cluster's triangles are to sixteen receivers.
+struct ClusterFaces {
+    std::uint32_t some;  ///< all words together
+    bool alike;          ///< all sixteen are the same
 };
 
 /// A mask as counts of layers: for each row how many more layers are hidden from a step on, [step][row] with one step
@@ -77,18 +80,30 @@ struct DealtEdges {
     std::size_t counts[kLanes] = {};
 };
 
+/// Of each receiver the triangles that may lie over its pole: 2 × the place, + 1 where it's the back that is seen.
+struct PoleTriangles {
+    std::vector<std::uint32_t> items;  ///< [receiver][room]
+    std::size_t room = 0;
+    std::size_t counts[kLanes] = {};
+};
+
 struct SilhouetteKernel {
     ClusterFlags (*classify)(const TriangleCluster& cluster, const ReceiverLanes& receivers);
     /// Low sixteen bits of `out`: for which receivers the triangle faces; high ones: to which it turns its back. Of
     /// `seen`'s bits alone, without those of own[triangle], and of the triangles in `members`: the others' are 0.
-    /// \return  all triangles' together
-    std::uint32_t (*face)(const TriangleCluster& cluster, const ReceiverLanes& receivers, std::uint32_t seen,
-                          std::uint32_t members, const std::uint32_t* own, std::uint32_t* out);
+    /// \param one  the middle's view stands for all receivers'; for each else
+    ClusterFaces (*face)(const TriangleCluster& cluster, const ReceiverLanes& receivers, bool one, std::uint32_t seen,
+                         std::uint32_t members, const std::uint32_t* own, std::uint32_t* out);
     /// \param sides  [place] as face has it  \param look  [cluster] kInside and kBetween for edges that may differ
     void (*differ)(const EdgeSides& edges, const std::uint32_t* sides, const std::uint8_t* look, DifferingEdges& out);
-    /// How many of the triangles that face (as face has it) receiver `lane`, or turn their back to it, hide its pole.
-    std::int32_t (*overhead)(const TriangleCluster& cluster, const Receiver& receiver, int lane,
-                             const std::uint32_t* faces);
+    /// Adds the triangles that may lie over the poles of receivers. \param number  the cluster's \param which
+    /// receivers, as bits \param faces  as face has it
+    void (*nearPole)(const TriangleCluster& cluster, std::uint32_t number, const Receiver* receivers,
+                     std::uint32_t which, const std::uint32_t* faces, PoleTriangles& out);
+    /// How many layers of triangles hide the receiver's pole; less those that do with the other side than they are said
+    /// to. \param items  as PoleTriangles has them, room for 15 more behind
+    std::int32_t (*overhead)(const TriangleCluster* clusters, std::uint32_t* items, std::size_t count,
+                             const Receiver& receiver);
     /// Adds the edges to the items of their receivers, where an end is over the receiver's horizon.
     void (*deal)(const EdgeRow* edges, const ReceiverLanes& receivers, const DifferingEdges& differing,
                  DealtEdges& out);

@@ -4,78 +4,74 @@
 NACRE_INLINE Columns columnsOf(const float (&v)[3][kLanes]) { return {load(v[0]), load(v[1]), load(v[2])}; }
 NACRE_INLINE Columns from(const float* p, const Columns& q) { return {splat(p[0]) - q.x, splat(p[1]) - q.y, splat(p[2]) - q.z}; }
 
+constexpr float kRounding = 2e-6f;  // of the extent
+
 ClusterFlags classify(const TriangleCluster& b, const ReceiverLanes& receivers) {
-    constexpr float kRounding = 2e-6f;  // of the extent
     const Columns d = from(b.centre, columnsOf(receivers.point));
-    const Floats radius = splat(b.radius), height = dot(columnsOf(receivers.normal), d), squared = dot(d, d);
-    const Floats front = -(splat(b.axis[0]) * d.x + splat(b.axis[1]) * d.y + splat(b.axis[2]) * d.z);
-    // front ≷ ±(spread |d| + slab), without the root
-    const Floats slab = splat(b.slab + kRounding), spread = splat(b.spread * b.spread) * squared, over = front - slab, under = front + slab;
+    const Floats radius = splat(b.radius), height = dot(columnsOf(receivers.normal), d);
     const Mask above = height + radius > Floats{};
-    return {lanes(above), lanes((over > Floats{}) & (over * over > spread)), lanes((under < Floats{}) & (under * under > spread)),
-            lanes(above & (squared - height * height <= splat(1.0001f) * radius * radius + splat(kRounding * kRounding)))};
+    return {lanes(above), lanes(above & (dot(d, d) - height * height <= splat(1.0001f) * radius * radius + splat(kRounding * kRounding)))};
 }
 
-template <bool kBacks>
-NACRE_INLINE Bits facesOf(const TriangleCluster& cluster, const ReceiverLanes& receivers) {
+/// The lanes whose bits are set.
+NACRE_INLINE Mask chosen(std::uint32_t bits) {
+    Bits bit;
+    for (int t = 0; t < kLanes; ++t) bit[t] = 1u << t;
+    return (bit & bits) != 0;
+}
+
+ClusterFaces face(const TriangleCluster& cluster, const ReceiverLanes& receivers, bool one, std::uint32_t seen, std::uint32_t members,
+                  const std::uint32_t* own, std::uint32_t* out) {
+    // Which side a box about the receivers is on, where it is on one; each of them else.
     const Columns n{load(cluster.normal[0]), load(cluster.normal[1]), load(cluster.normal[2])};
-    const Floats offset = load(cluster.offset), least = splat(kFacing);
-    Bits sides{};
-    for (int k = 0; k < kLanes; ++k) {
-        const glm::vec3 p(receivers.point[0][k], receivers.point[1][k], receivers.point[2][k]);
-        const Floats front = dot(p, n) - offset;
-        sides |= as<Bits>(front > least) & (1u << k);
-        if (kBacks) sides |= as<Bits>(front < -least) & (0x10000u << k);
+    const Floats front = dot(receivers.box.middle, n) - load(cluster.offset), least = splat(kFacing);
+    const Floats margin = one ? least : dot(receivers.box.half, Columns{absolute(n.x), absolute(n.y), absolute(n.z)}) + splat(kRounding);
+    const Mask ahead = front > margin, behind = front < -margin;
+    store(out, ((as<Bits>(ahead) & (seen & 0xffffu)) | (as<Bits>(behind) & (seen & 0xffff0000u))) & as<Bits>(chosen(members)));
+    const unsigned facing = seen & 0xffffu ? lanes(ahead) & members : 0, away = seen >> 16 ? lanes(behind) & members : 0;
+    unsigned left = one ? 0 : ~lanes(ahead | behind) & members;
+    const bool alike = left == 0 && ((facing | away) == 0 || facing == 0xffff || away == 0xffff);
+    std::uint32_t some = (facing ? seen & 0xffffu : 0) | (away ? seen & 0xffff0000u : 0);
+    const Columns points = columnsOf(receivers.point);
+    for (; left; left &= left - 1) {  // those that the triangle meets are in its plane, so that it's among these
+        const int t = __builtin_ctz(left);
+        const glm::vec3 normal(cluster.normal[0][t], cluster.normal[1][t], cluster.normal[2][t]);
+        const Floats off = dot(normal, points) - splat(cluster.offset[t]);
+        some |= out[t] = (lanes(off > least) | lanes(off < -least) << 16) & seen & ~own[t];
     }
-    return sides;
+    return {some, alike};
 }
-
-std::uint32_t face(const TriangleCluster& cluster, const ReceiverLanes& receivers, std::uint32_t seen, std::uint32_t members,
-                   const std::uint32_t* own, std::uint32_t* out) {
-    Bits excepted;
-    std::memcpy(&excepted, own, sizeof(excepted));
-    Bits sides = ~excepted & (seen >> 16 ? facesOf<true>(cluster, receivers) : facesOf<false>(cluster, receivers)) & seen;
-    if (members != 0xffff)
-        for (int t = 0; t < kLanes; ++t) sides[t] = members >> t & 1 ? sides[t] : 0;
-    store(out, sides);
-    std::uint32_t all = 0;
-    for (int t = 0; t < kLanes; ++t) all |= sides[t];
-    return all;
-}
-
-#if NACRE_SET == 512
-NACRE_INLINE void addDiffering(std::size_t edge, const __m512i& a, const __m512i& b, DifferingEdges& out) {
-    const __m512i numbers = _mm512_add_epi32(_mm512_set1_epi32(static_cast<int>(edge)), _mm512_set_epi32(15, 14, 13, 12, 11, 10, 9, 8, 7, 6, 5, 4, 3, 2, 1, 0));
-    const unsigned some = _mm512_cmpneq_epi32_mask(a, b);
-    append(out.edge.data(), out.count, numbers, some);
-    append(out.sides.data(), out.count, _mm512_xor_si512(a, b), some);
-    out.count = append(out.first.data(), out.count, a, some);
-}
-#endif
 
 void differ(const EdgeSides& edges, const std::uint32_t* sides, const std::uint8_t* look, DifferingEdges& out) {
-    out.count = 0;
+    std::size_t count = 0;
+    std::uint32_t *const edge = out.edge.data(), *const differing = out.sides.data(), *const first = out.first.data();
     const std::size_t clusters = edges.between.size();
 #if NACRE_SET == 512
-    const __m512i zero = _mm512_setzero_si512();
+    const __m512i zero = _mm512_setzero_si512(), upwards = _mm512_set_epi32(15, 14, 13, 12, 11, 10, 9, 8, 7, 6, 5, 4, 3, 2, 1, 0);
+    const auto add = [&](std::size_t e, const __m512i& a, const __m512i& b) {
+        const unsigned some = _mm512_cmpneq_epi32_mask(a, b);
+        append(edge, count, _mm512_add_epi32(_mm512_set1_epi32(static_cast<int>(e)), upwards), some);
+        append(differing, count, _mm512_xor_si512(a, b), some);
+        count = append(first, count, a, some);
+    };
     for (std::size_t c = 0; c < clusters; ++c) {
         if (look[c] & kInside) {
             const __m512i own = _mm512_loadu_si512(sides + kLanes * c);  // places modulo 16 are lanes
             for (std::size_t e = edges.inside[c]; e < edges.between[c]; e += kWide)
-                addDiffering(e, _mm512_permutexvar_epi32(_mm512_loadu_si512(&edges.a[e]), own), _mm512_permutexvar_epi32(_mm512_loadu_si512(&edges.b[e]), own), out);
+                add(e, _mm512_permutexvar_epi32(_mm512_loadu_si512(&edges.a[e]), own), _mm512_permutexvar_epi32(_mm512_loadu_si512(&edges.b[e]), own));
         }
         if (look[c] & kBetween)
             for (std::size_t e = edges.between[c]; e < edges.inside[c + 1]; e += kWide)
-                addDiffering(e, _mm512_mask_i32gather_epi32(zero, 0xffff, _mm512_loadu_si512(&edges.a[e]), sides, 4), _mm512_mask_i32gather_epi32(zero, 0xffff, _mm512_loadu_si512(&edges.b[e]), sides, 4), out);
+                add(e, _mm512_mask_i32gather_epi32(zero, 0xffff, _mm512_loadu_si512(&edges.a[e]), sides, 4), _mm512_mask_i32gather_epi32(zero, 0xffff, _mm512_loadu_si512(&edges.b[e]), sides, 4));
     }
 #else
-    const auto add = [&](std::size_t first, std::size_t end) {
-        for (std::size_t e = first; e < end; ++e) {
+    const auto add = [&](std::size_t from, std::size_t end) {
+        for (std::size_t e = from; e < end; ++e) {
             const std::uint32_t a = sides[edges.a[e]], some = a ^ sides[edges.b[e]];
-            out.edge[out.count] = static_cast<std::uint32_t>(e);
-            out.sides[out.count] = some;
-            out.first[out.count] = a;
-            out.count += some != 0;
+            edge[count] = static_cast<std::uint32_t>(e);
+            differing[count] = some;
+            first[count] = a;
+            count += some != 0;
         }
     };
     for (std::size_t c = 0; c < clusters; ++c) {
@@ -83,6 +79,7 @@ void differ(const EdgeSides& edges, const std::uint32_t* sides, const std::uint8
         if (look[c] & kBetween) add(edges.between[c], edges.inside[c + 1]);
     }
 #endif
+    out.count = count;
     for (std::vector<std::uint32_t>* column : {&out.edge, &out.sides, &out.first}) std::memset(column->data() + out.count, 0, sizeof(Bits));
 }
 
@@ -95,29 +92,78 @@ NACRE_INLINE Mask turnsLeft(const Floats& turn, const Floats& x0, const Floats& 
     return (turn > Floats{}) | ((turn == Floats{}) & ((x1 > x0) | ((x1 == x0) & (y1 > y0))));
 }
 
-std::int32_t overhead(const TriangleCluster& cluster, const Receiver& receiver, int lane, const std::uint32_t* faces) {
-    const auto frame = [&](const float (&a)[kLanes], const float (&b)[kLanes], const float (&c)[kLanes], Floats& x, Floats& y) {
-        const Columns d = Columns{load(a), load(b), load(c)} - receiver.point;
-        x = dot(receiver.tangent, d);
-        y = dot(receiver.bitangent, d);
-    };
-    Floats x[3], y[3];
-    frame(cluster.middle[0], cluster.middle[1], cluster.middle[2], x[0], y[0]);
-    const Floats reach = splat(1.0001f) * load(cluster.reach) + splat(1e-5f);
+NACRE_INLINE Mask upwards() {
+    Mask out;
+    for (int k = 0; k < kWide; ++k) out[k] = k;
+    return out;
+}
+
+/// A number of the triangles at sixteen places.
+NACRE_INLINE Floats atPlaces(const float* clusters, const Mask& places, int column) {
+    constexpr int kStride = sizeof(TriangleCluster) / sizeof(float);
+    static_assert(offsetof(TriangleCluster, corners) == 0);
+    const Mask at = (places >> 4) * kStride + (places & 15) + column * kLanes;
+#if NACRE_SET == 512
+    return as<Floats>(_mm512_i32gather_ps(as<__m512i>(at), clusters, 4));
+#else
+    Floats out;
+    for (int k = 0; k < kWide; ++k) out[k] = clusters[at[k]];
+    return out;
+#endif
+}
+
+void nearPole(const TriangleCluster& cluster, std::uint32_t number, const Receiver* receivers, std::uint32_t which, const std::uint32_t* faces,
+              PoleTriangles& out) {
+    const Columns middle = columnsOf(cluster.middle);
+    Floats reach = splat(1.0001f) * load(cluster.reach) + splat(1e-5f);
+    reach = reach * reach;
     Bits words;
     std::memcpy(&words, faces, sizeof(words));
-    const Mask near = x[0] * x[0] + y[0] * y[0] <= reach * reach;
-    Mask front = near & as<Mask>(words << static_cast<unsigned>(31 - lane)), back = near & as<Mask>(words << static_cast<unsigned>(15 - lane));
-    if ((lanes(front) | lanes(back)) == 0) return 0;
-    for (int c = 0; c < 3; ++c) frame(cluster.corners[3 * c], cluster.corners[3 * c + 1], cluster.corners[3 * c + 2], x[c], y[c]);
-    // A front turns clockwise about a pole that it hides, seen from above; a back the other way.
-    for (int c = 0; c < 3; ++c) {
-        const int e = (c + 1) % 3;
-        const Mask left = turnsLeft(turning(x[c], y[c], x[e], y[e]), x[c], y[c], x[e], y[e]);
-        front &= ~left;
-        back &= left;
+    const Bits places = (as<Bits>(upwards()) + kLanes * number) << 1;
+    for (; which; which &= which - 1) {
+        const int k = __builtin_ctz(which);
+        const Receiver& r = receivers[k];
+        const Columns d = middle - r.point;
+        const Floats x = dot(r.tangent, d), y = dot(r.bitangent, d);
+        const Bits seen = words & (0x10001u << k);
+        const Mask near = (fused(x, x, y * y) <= reach) & (seen != 0);
+        const Bits item = places | (as<Bits>(seen > 0xffffu) & 1u);
+        out.counts[k] = append(out.items.data() + static_cast<std::size_t>(k) * out.room, out.counts[k], item, lanes(near));
     }
-    return __builtin_popcount(lanes(front) | lanes(back));
+}
+
+std::int32_t overhead(const TriangleCluster* clusters, std::uint32_t* items, std::size_t count, const Receiver& receiver) {
+    std::int32_t layers = 0;
+    for (std::size_t i = 0; i < count; i += kWide) {
+        const unsigned used = count - i >= kWide ? 0xffffu : (1u << (count - i)) - 1;
+        for (std::size_t k = count; k % kWide; ++k) items[k] = items[count - 1];
+        Bits item;
+        std::memcpy(&item, items + i, sizeof(item));
+        const Mask back = as<Mask>(item << 31);
+        Floats x[3], y[3], lowest = splat(1e30f);
+        for (int c = 0; c < 3; ++c) {
+            Columns d;
+            Floats* const xyz[3] = {&d.x, &d.y, &d.z};
+            for (int axis = 0; axis < 3; ++axis)
+                *xyz[axis] = atPlaces(reinterpret_cast<const float*>(clusters), as<Mask>(item >> 1), 3 * c + axis);
+            d = d - receiver.point;
+            x[c] = dot(receiver.tangent, d);
+            y[c] = dot(receiver.bitangent, d);
+            lowest = smaller(lowest, dot(receiver.normal, d));
+        }
+        // A front turns clockwise about a pole that it hides, seen from above; a back the other way.
+        Mask all = Mask{} - 1, some{};
+        for (int c = 0; c < 3; ++c) {
+            const int e = (c + 1) % 3;
+            const Mask left = turnsLeft(turning(x[c], y[c], x[e], y[e]), x[c], y[c], x[e], y[e]);
+            all &= left;
+            some |= left;
+        }
+        const Mask right = ~some, over = lowest > Floats{};  // below, both turn the other way
+        layers += __builtin_popcount(lanes((all & back) | (right & ~back)) & used);
+        layers -= __builtin_popcount(lanes(((all & ~back) | (right & back)) & over) & used);
+    }
+    return layers;
 }
 
 void deal(const EdgeRow* rows, const ReceiverLanes& receivers, const DifferingEdges& edges, DealtEdges& out) {
@@ -211,13 +257,14 @@ NACRE_INLINE void addCrossings(const MaskRows& rows, Crossings& crossings, std::
     for (std::size_t i = 0; i < crossings.count; i += kWide) {
         Mask row;
         std::memcpy(&row, crossings.row + i, sizeof(row));
-        const Floats cot = load(crossings.a + i) * atRows<N>(rows.cosPhi, row) + load(crossings.b + i) * atRows<N>(rows.sinPhi, row);
+        const Floats cot = fused(load(crossings.b + i), atRows<N>(rows.sinPhi, row), load(crossings.a + i) * atRows<N>(rows.cosPhi, row));
         const Floats bounded = larger(cot, Floats{});
-        const Mask step = whole(splat(N) / (splat(1) + bounded * bounded) + atRows<N>(rows.dither, row));
-        std::int32_t at[kWide];
-        store(at, step * N + row);
-        const std::size_t end = std::min<std::size_t>(kWide, crossings.count - i);
-        for (std::size_t k = 0; k < end; ++k) layers[at[k]] = static_cast<std::int16_t>(layers[at[k]] + crossings.layers[i + k]);
+        const Mask step = whole(splat(N) / fused(bounded, bounded, splat(1)) + atRows<N>(rows.dither, row));
+        store(crossings.row + i, step * N + row);
+    }
+    for (std::size_t i = 0; i < crossings.count; ++i) {  // of its own: numbers out of a vector are dearer than from memory
+        std::int16_t& layer = layers[crossings.row[i]];
+        layer = static_cast<std::int16_t>(layer + crossings.layers[i]);
     }
     crossings.count = 0;
 }
@@ -240,15 +287,29 @@ void addSwept(const MaskRows& rows, Swept& swept, std::int16_t* layers) {
         const Mask left = turnsLeft(n.z, p.x, p.y, q.x, q.y);
         const Floats a = choose(left, -n.x, n.x) * inverse, b = choose(left, -n.y, n.y) * inverse;
         unsigned some = swept.count - i >= kWide ? 0xffffu : (1u << (swept.count - i)) - 1;
-        while (some) {
-            append(crossings.a, crossings.count, a, some);
-            append(crossings.b, crossings.count, b, some);
-            append(crossings.row, crossings.count, row, some);
-            crossings.count = append(crossings.layers, crossings.count, begun, some);
+        constexpr int kFew = 3;  // lanes: from then on edge by edge
+        while (__builtin_popcount(some) > kFew) {
+            const std::size_t count = crossings.count;
+            append(crossings.a, count, a, some);
+            append(crossings.b, count, b, some);
+            append(crossings.row, count, row, some);
+            crossings.count = append(crossings.layers, count, begun, some);
             if (crossings.count > Crossings::kRoom - kWide) addCrossings<N>(rows, crossings, layers);
             row = (row + 1) & (N - 1);
             more -= 1;
             some &= lanes(Mask{} - more);
+        }
+        for (; some; some &= some - 1) {
+            const int lane = __builtin_ctz(some);
+            for (std::int32_t r = 0; r < more[lane]; r += kWide) {
+                const std::size_t count = crossings.count;
+                store(crossings.a + count, splat(a[lane]));
+                store(crossings.b + count, splat(b[lane]));
+                store(crossings.row + count, (upwards() + row[lane] + r) & (N - 1));
+                store(crossings.layers + count, Mask{} + begun[lane]);
+                crossings.count += static_cast<std::size_t>(std::min(more[lane] - r, kWide));
+                if (crossings.count > Crossings::kRoom - kWide) addCrossings<N>(rows, crossings, layers);
+            }
         }
     }
     addCrossings<N>(rows, crossings, layers);
@@ -285,8 +346,9 @@ void add(const MaskRows& rows, const EdgeRow* edges, const Receiver& receiver, s
         const Mask packed = ((backwards ? end : begin) & (N - 1)) + (under ? Mask{} : ends * Swept::kEnds) +
                             as<Mask>(item & DealtEdges::kTwice) * (Swept::kTwice / 2) + (backwards ? -sweep : sweep) * Swept::kMore;
         const Floats* const columns[6] = {&p.x, &p.y, &p.z, &q.x, &q.y, &q.z};
-        for (int c = 0; c < 6; ++c) append(swept.column[c], swept.count, *columns[c], some);
-        swept.count = append(swept.rows, swept.count, packed, some);
+        const std::size_t before = swept.count;
+        for (int c = 0; c < 6; ++c) append(swept.column[c], before, *columns[c], some);
+        swept.count = append(swept.rows, before, packed, some);
         if (swept.count > Swept::kRoom - kWide) addSwept<N>(rows, swept, layers);
     }
     addSwept<N>(rows, swept, layers);

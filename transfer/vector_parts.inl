@@ -4,7 +4,6 @@ typedef std::int16_t Shorts __attribute__((vector_size(2 * kWide)));
 
 NACRE_INLINE Floats splat(float x) { return Floats{} + x; }
 NACRE_INLINE Floats choose(const Mask& m, const Floats& a, const Floats& b) { return m ? a : b; }
-NACRE_INLINE Floats absolute(const Floats& v) { return v < Floats{} ? -v : v; }
 /// Towards zero.
 NACRE_INLINE Mask whole(const Floats& v) { return __builtin_convertvector(v, Mask); }
 template <class V>
@@ -18,6 +17,8 @@ NACRE_INLINE To as(const From& v) {
     std::memcpy(&out, &v, sizeof(out));
     return out;
 }
+
+NACRE_INLINE Floats absolute(const Floats& v) { return as<Floats>(as<Bits>(v) & 0x7fffffffu); }
 
 /// Ones from bit `count` on; none from 32 on. \param count  ≥ 0
 NACRE_INLINE Bits onesFrom(const Mask& count) {
@@ -109,8 +110,8 @@ NACRE_INLINE void gather(const BlockerRow* rows, const std::uint32_t* indices, F
 struct Columns {
     Floats x, y, z;
 };
-NACRE_INLINE Floats dot(const glm::vec3& a, const Columns& b) { return splat(a.x) * b.x + splat(a.y) * b.y + splat(a.z) * b.z; }
-NACRE_INLINE Floats dot(const Columns& a, const Columns& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
+NACRE_INLINE Floats dot(const glm::vec3& a, const Columns& b) { return fused(splat(a.z), b.z, fused(splat(a.y), b.y, splat(a.x) * b.x)); }
+NACRE_INLINE Floats dot(const Columns& a, const Columns& b) { return fused(a.z, b.z, fused(a.y, b.y, a.x * b.x)); }
 NACRE_INLINE Columns cross(const Columns& a, const Columns& b) {
     return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
 }
