@@ -66,6 +66,10 @@ double wallSeconds() {
 
 }  // namespace
 
+SelfTransferOptions quickTransfer() { return {.coarse = 500, .lodAngle = 1, .nearby = 1.5}; }
+
+SelfTransferOptions largeTransfer() { return {.coarse = 500, .lodAngle = 0.35}; }
+
 SelfTransferOptions fastTransfer() { return {.coarse = 0}; }
 
 SelfTransferOptions qualityTransfer() { return {.mask = 64, .coarse = 0}; }

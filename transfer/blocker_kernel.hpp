@@ -15,8 +15,6 @@ struct PatchColumns {
     std::vector<std::vector<float>> off;   ///< [level ≥ 1] how far the level is from the mesh [world units]
     void resize(std::size_t patches, std::size_t levels);
 };
-inline constexpr std::uint8_t kHiddenPatch = 0x80;  ///< beside the level: under the horizon of all vertices
-
 inline constexpr float kAnyOffset = -1e30f;  ///< a triangle's that passes the test of facing from anywhere
 
 /// Triangles by columns, each padded to a multiple of 16.
@@ -26,9 +24,11 @@ struct ListedBlockers {
 };
 
 struct BlockerKernel {
-    /// The coarsest level whose error is below `angle`, seen from the group, for each patch; and whether it is hidden.
-    /// \param levels  room for the padded count
-    void (*choose)(const PatchColumns& patches, const GroupBounds& group, float angle, std::uint8_t* levels);
+    /// The coarsest level whose error is below `angle`, seen from the group, for each patch; and whether it is under
+    /// the horizon of all vertices, by sixteens as bits: those have any level. \param levels, hidden  room for the
+    /// padded count
+    void (*choose)(const PatchColumns& patches, const GroupBounds& group, float angle, std::uint8_t* levels,
+                   std::uint16_t* hidden);
     /// Those with a corner over the receiver's plane that face it: their numbers. \param out  room for 16 more
     std::size_t (*cull)(const ListedBlockers& list, const Receiver& receiver, std::uint32_t* out);
 };

@@ -32,17 +32,23 @@ NACRE_INLINE Floats distanceFrom(const std::vector<float>* corners, std::size_t 
 
 typedef std::uint8_t Bytes __attribute__((vector_size(kWide)));
 
-void choose(const PatchColumns& patches, const GroupBounds& group, float angle, std::uint8_t* levels) {
+void choose(const PatchColumns& patches, const GroupBounds& group, float angle, std::uint8_t* levels,
+            std::uint16_t* hidden) {
     for (std::size_t i = 0; i < patches.count; i += kWide) {
         const Columns d = columnsAt(patches.centre, i) - group.centre;
         const Floats distance = lengthOf(d);
+        const unsigned below = lanes(~mayRise(group, d, distance, load(&patches.radius[i])));
+        hidden[i / kWide] = static_cast<std::uint16_t>(below);
+        if (below == 0xffff) {
+            store(levels + i, Bytes{});
+            continue;
+        }
         const Floats nearest = distanceFrom(patches.corners, i, group.centre);
         // What touches the group is fine until the angle is large: there an error is seen from no distance at all.
         const Floats allowed = splat(angle) * larger(nearest - splat(group.radius), splat(0.2f * angle) * distance);
         Mask level{};
         for (std::size_t l = 1; l < patches.off.size(); ++l)
             level = load(&patches.off[l][i]) <= allowed ? Mask{} + static_cast<std::int32_t>(l) : level;
-        level |= ~mayRise(group, d, distance, load(&patches.radius[i])) & kHiddenPatch;
         store(levels + i, __builtin_convertvector(level, Bytes));
     }
 }

@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "core/parallel.hpp"
+#include "transfer/receiver_groups.hpp"
 
 namespace nacre {
 namespace {
@@ -200,6 +201,24 @@ std::vector<std::uint32_t> nearestVertices(const BlockerLevels::Level& level, st
     return out;
 }
 
+/// Numbers the triangles of the level so that those near each other follow each other.
+void sortInSpace(BlockerLevels::Level& level, std::span<const glm::vec3> rest) {
+    std::vector<glm::vec3> middles, normals;
+    for (const glm::uvec3& t : level.triangles) {
+        middles.push_back((rest[t.x] + rest[t.y] + rest[t.z]) / 3.0f);
+        const glm::vec3 n = glm::cross(rest[t.y] - rest[t.x], rest[t.z] - rest[t.x]);
+        normals.push_back(glm::dot(n, n) > 0 ? glm::normalize(n) : glm::vec3(0, 0, 1));
+    }
+    std::vector<glm::uvec3> sorted;
+    std::vector<std::uint32_t> numberOf(middles.size());
+    for (const std::vector<std::uint32_t>& one : groupReceivers(middles, normals, 1)) {
+        numberOf[one[0]] = static_cast<std::uint32_t>(sorted.size());
+        sorted.push_back(level.triangles[one[0]]);
+    }
+    level.triangles = std::move(sorted);
+    for (std::uint32_t& t : level.triangleOf) t = numberOf[t];
+}
+
 }  // namespace
 
 float extentOf(std::span<const glm::vec3> positions) {
@@ -234,6 +253,7 @@ BlockerLevels makeBlockerLevels(const WeldedMesh& mesh, std::span<const glm::vec
                 out.levels.push_back(levelOf(std::move(triangles), rest, normals, parts));
         }
     }
+    if (out.levels.size() > 1) sortInSpace(out.levels.back(), rest);
     const BlockerLevels::Level& coarsest = out.levels.back();
     out.patches.resize(coarsest.triangles.size());
     for (std::uint32_t p = 0; p < out.patches.size(); ++p) {

@@ -24,8 +24,8 @@ struct BlockerLevels {
     };
     std::vector<Level> levels;
 
-    /// What each triangle of the coarsest level stands for, level by level: with a rim, so that two neighbours at
-    /// different levels leave no gap.
+    /// What each triangle of the coarsest level, near each other in space, stands for, level by level: with a rim, so
+    /// that two neighbours at different levels leave no gap.
     struct Patch {
         std::vector<std::uint32_t> vertices;                ///< of the mesh
         std::vector<std::vector<std::uint32_t>> triangles;  ///< [level], the last its own triangle

@@ -31,9 +31,9 @@ MovingLevels::MovingLevels(BlockerLevels levels, std::size_t vertices) : levels_
         firstPushed_.push_back(static_cast<std::uint32_t>(vertices + pushedCount_));
         used_.emplace_back();
         numbered_.emplace_back();
+        if (l == 0) continue;
         rowCount_ += triangles.size();
         cut(rowParts_, l, triangles.size());
-        if (l == 0) continue;
         std::vector<std::uint32_t> numberOf(vertices, kNone);
         for (const glm::uvec3& t : triangles)
             for (int c = 0; c < 3; ++c) {

@@ -11,7 +11,7 @@ struct FrameBlockers {
     SilhouetteMesh::Frame silhouettes;
     PatchColumns patches;
     std::vector<glm::vec3> points;  ///< the mesh's vertices, then the coarser levels'
-    std::vector<BlockerRow> rows;   ///< level after level, where there are some
+    std::vector<BlockerRow> rows;   ///< of the coarser levels, level after level
     std::size_t bytes() const;
 };
 

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 #include <mutex>
+#include <numeric>
 #include <utility>
 
 #include "core/error.hpp"
@@ -17,7 +18,8 @@
 namespace nacre {
 namespace {
 
-constexpr std::size_t kGroup = kLanes;   ///< vertices that share a list
+constexpr std::size_t kGroup = kLanes;  ///< vertices that share a list
+constexpr std::uint32_t kNoCluster = std::numeric_limits<std::uint32_t>::max();
 constexpr std::size_t kTimedGroups = 8;  ///< one of so many is timed
 
 struct GroupResult {
@@ -28,6 +30,7 @@ struct GroupResult {
 /// What a thread keeps from group to group.
 struct Scratch {
     std::vector<std::uint8_t> levels;
+    std::vector<std::uint16_t> hidden;
     SilhouetteMesh::Seen seen;
     std::vector<std::int16_t> layers;
     std::vector<std::uint32_t> masks;
@@ -71,6 +74,8 @@ struct SelfTransfer::State {
     SilhouetteMesh silhouettes;
     std::vector<SilhouetteMesh::Part> patchParts;
     std::vector<std::uint32_t> firstPart;  ///< [patch × levels + level], one more: in patchParts
+    std::vector<std::uint32_t>
+        coarsestOf;  ///< [patch / 16] the cluster whose triangles are the coarsest of these patches
     SilhouetteKernel kernel;
     BlockerKernel blockerKernels;
     MaskKernel maskKernels;
@@ -86,7 +91,7 @@ struct SelfTransfer::State {
     std::unique_ptr<FrameBlockers> takeSpare();
     void keepSpare(std::unique_ptr<FrameBlockers> blockers);
     void makeGroups(std::span<const glm::vec3> rest, std::span<const std::uint8_t> dark);
-    std::vector<std::vector<std::uint32_t>> patchesInOrder(std::span<const glm::vec3> rest) const;
+    std::vector<std::vector<std::uint32_t>> patchesOfTriangles() const;
     void makeSilhouettes(std::span<const glm::vec3> rest);
     std::size_t listBlockers(const FrameBlockers& blockers, const GroupBounds& bounds, std::size_t group,
                              const BlockerSets& sets, Scratch& scratch) const;
@@ -119,21 +124,14 @@ SelfTransfer::State::State(WeldedMesh m, std::span<const glm::vec3> rest, const 
     makeGroups(rest, {});
 }
 
-/// [level][triangle] the patch of its first corner, patches numbered so that those near each other follow each other.
-std::vector<std::vector<std::uint32_t>> SelfTransfer::State::patchesInOrder(std::span<const glm::vec3> rest) const {
+/// [level][triangle] the patch of its first corner, of the coarsest its own.
+std::vector<std::vector<std::uint32_t>> SelfTransfer::State::patchesOfTriangles() const {
     if (levels.levelCount() == 1) return {};
-    std::vector<glm::vec3> middles, normals;
-    for (const glm::uvec3& t : levels.vertexTriangles(levels.levelCount() - 1)) {
-        middles.push_back((rest[t.x] + rest[t.y] + rest[t.z]) / 3.0f);
-        const glm::vec3 n = glm::cross(rest[t.y] - rest[t.x], rest[t.z] - rest[t.x]);
-        normals.push_back(glm::dot(n, n) > 0 ? glm::normalize(n) : glm::vec3(0, 0, 1));
-    }
-    std::vector<std::uint32_t> numbers(middles.size());
-    std::uint32_t next = 0;
-    for (const std::vector<std::uint32_t>& one : groupReceivers(middles, normals, 1)) numbers[one[0]] = next++;
     std::vector<std::vector<std::uint32_t>> out(levels.levelCount());
-    for (std::size_t l = 0; l < levels.levelCount(); ++l)
-        for (const glm::uvec3& t : levels.vertexTriangles(l)) out[l].push_back(numbers[levels.coarsestOf(t.x)]);
+    for (std::size_t l = 0; l + 1 < levels.levelCount(); ++l)
+        for (const glm::uvec3& t : levels.vertexTriangles(l)) out[l].push_back(levels.coarsestOf(t.x));
+    out.back().resize(levels.coarsestTriangles());
+    std::iota(out.back().begin(), out.back().end(), 0u);
     return out;
 }
 
@@ -146,7 +144,7 @@ void SelfTransfer::State::makeSilhouettes(std::span<const glm::vec3> rest) {
         for (const glm::uvec3& t : levels.vertexTriangles(l))
             backs[l].push_back(parts.sheets[t.x] ? BackSides::All : l == 0 ? inner : BackSides::None);
     }
-    silhouettes = SilhouetteMesh(triangles, levels.unpushed(rest), backs, patchesInOrder(rest));
+    silhouettes = SilhouetteMesh(triangles, levels.unpushed(rest), backs, patchesOfTriangles());
     if (levels.levelCount() == 1) return;
     for (const BlockerLevels::Patch& patch : levels.patches())
         for (std::size_t l = 0; l < levels.levelCount(); ++l) {
@@ -155,6 +153,16 @@ void SelfTransfer::State::makeSilhouettes(std::span<const glm::vec3> rest) {
             patchParts.insert(patchParts.end(), some.begin(), some.end());
         }
     firstPart.push_back(static_cast<std::uint32_t>(patchParts.size()));
+    const std::size_t count = levels.levelCount();
+    for (std::size_t p = 0; p < levels.patches().size(); p += kLanes) {
+        const std::uint32_t cluster = patchParts[firstPart[count * p + count - 1]].cluster;
+        bool alike = true;
+        for (std::size_t k = 0; k < std::min<std::size_t>(kLanes, levels.patches().size() - p); ++k) {
+            const SilhouetteMesh::Part& part = patchParts[firstPart[count * (p + k) + count - 1]];
+            alike &= part.cluster == cluster && part.triangles == 1u << k;
+        }
+        coarsestOf.push_back(alike ? cluster : kNoCluster);
+    }
 }
 
 /// Vertices that need more blockers than others, dark ones and those that see backs, are in groups of their own.
@@ -227,19 +235,29 @@ std::size_t SelfTransfer::State::listBlockers(const FrameBlockers& blockers, con
     if (levels.levelCount() == 1) {
         for (std::size_t c = 0; c < members.size(); ++c) members[c] = silhouettes.all(c);
     } else {
-        scratch.levels.resize(levels.patches().size() + kLanes);
-        blockerKernels.choose(blockers.patches, bounds, angles[group], scratch.levels.data());
+        const std::size_t patches = levels.patches().size(), count = levels.levelCount();
+        scratch.levels.resize(patches + kLanes);
+        scratch.hidden.resize(patches / kLanes + 1);
+        blockerKernels.choose(blockers.patches, bounds, angles[group], scratch.levels.data(), scratch.hidden.data());
         // A coarse triangle next to the vertex is harmless while its back lets light through.
-        for (const std::uint32_t p : nearPatches[group]) scratch.levels[p] &= kHiddenPatch;
+        for (const std::uint32_t p : nearPatches[group]) scratch.levels[p] = 0;
         const auto add = [&](const SilhouetteMesh::Part& part) { members[part.cluster] |= part.triangles; };
         std::for_each(near[group].begin(), near[group].end(), add);
-        for (std::size_t p = 0; p < levels.patches().size(); ++p) {
-            const std::size_t level = scratch.levels[p] & ~kHiddenPatch;
-            const std::uint32_t* first = &firstPart[levels.levelCount() * p + level];
-            if (scratch.levels[p] & kHiddenPatch)
-                hidden += levels.patches()[p].triangles[level].size();
-            else
-                std::for_each(&patchParts[first[0]], &patchParts[first[1]], add);
+        for (std::size_t first = 0; first < patches; first += kLanes) {
+            const std::size_t block = first / kLanes;
+            const std::uint8_t* level = &scratch.levels[first];
+            std::uint32_t left = (1u << std::min<std::size_t>(kLanes, patches - first)) - 1, coarsest = 0;
+            hidden += static_cast<std::size_t>(std::popcount(left & scratch.hidden[block]));
+            left &= ~std::uint32_t{scratch.hidden[block]};
+            if (coarsestOf[block] != kNoCluster) {
+                for (std::size_t k = 0; k < kLanes; ++k) coarsest |= (level[k] + 1u == count ? 1u : 0u) << k;
+                members[coarsestOf[block]] |= coarsest & left;
+            }
+            for (left &= ~coarsest; left; left &= left - 1) {
+                const auto k = static_cast<std::size_t>(std::countr_zero(left));
+                const std::uint32_t* part = &firstPart[count * (first + k) + level[k]];
+                std::for_each(&patchParts[part[0]], patchParts.data() + part[1], add);
+            }
         }
     }
     if (!sets.visible.empty())
@@ -410,7 +428,7 @@ TransferFrame SelfTransfer::compute(std::span<const glm::vec3> given, std::span<
     frame.normals = vertexNormals(s.mesh.triangles, s.corners, positions, s.options.threads);
     std::unique_ptr<FrameBlockers> blockers = s.takeSpare();
     s.levels.place(positions, s.options.threads, *blockers);
-    s.silhouettes.place(blockers->points, s.options.threads, blockers->silhouettes);
+    s.silhouettes.place(blockers->points, s.kernel, s.options.threads, blockers->silhouettes);
     const double prepared = threadSeconds();
     std::vector<std::vector<std::uint32_t>> chosen(s.groups.size());
     std::vector<GroupResult> results(s.groups.size());

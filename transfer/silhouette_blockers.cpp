@@ -139,33 +139,8 @@ std::vector<SilhouetteMesh::Part> SilhouetteMesh::partsOf(std::size_t level,
     return out;
 }
 
-void SilhouetteMesh::placeCluster(std::span<const glm::vec3> points, std::size_t cluster, TriangleCluster& out) const {
-    glm::vec3 low(1e30f), high(-1e30f);
-    for (std::size_t k = 0; k < kLanes; ++k) {
-        const glm::uvec3& t = triangles_[kLanes * cluster + k];
-        const glm::vec3 a = points[t.x], b = points[t.y], c = points[t.z];
-        low = glm::min(low, glm::min(a, glm::min(b, c)));
-        high = glm::max(high, glm::max(a, glm::max(b, c)));
-        for (std::size_t i = 0; i < 3; ++i)
-            for (int xyz = 0; xyz < 3; ++xyz)
-                out.corners[3 * i + static_cast<std::size_t>(xyz)][k] = points[t[static_cast<int>(i)]][xyz];
-        const glm::vec3 cross = glm::cross(b - a, c - a), middle = (a + b + c) / 3.0f;
-        const float length = glm::length(cross);
-        const glm::vec3 n = length > 0 ? cross / length : glm::vec3(0);
-        out.offset[k] = glm::dot(n, a);
-        out.reach[k] = std::max({glm::distance(a, middle), glm::distance(b, middle), glm::distance(c, middle)});
-        for (int xyz = 0; xyz < 3; ++xyz) out.normal[xyz][k] = n[xyz], out.middle[xyz][k] = middle[xyz];
-    }
-    const std::uint32_t count = clusters_[cluster].count;
-    const glm::vec3 centre = 0.5f * (low + high);
-    out.radius = 0;
-    for (std::size_t k = 0; k < count; ++k)
-        for (int c = 0; c < 3; ++c)
-            out.radius = std::max(out.radius, glm::distance(points[triangles_[kLanes * cluster + k][c]], centre));
-    for (int c = 0; c < 3; ++c) out.centre[c] = centre[c];
-}
-
-void SilhouetteMesh::place(std::span<const glm::vec3> points, unsigned threads, Frame& out) const {
+void SilhouetteMesh::place(std::span<const glm::vec3> points, const SilhouetteKernel& kernel, unsigned threads,
+                           Frame& out) const {
     out.clusters.resize(clusters_.size());
     out.edges.resize(ends_.size());
     constexpr std::size_t kClusters = 8, kEdges = 512;
@@ -173,7 +148,7 @@ void SilhouetteMesh::place(std::span<const glm::vec3> points, unsigned threads, 
     parallelFor(ofClusters + (ends_.size() + kEdges - 1) / kEdges, threads, [&](std::size_t i) {
         if (i < ofClusters) {
             for (std::size_t c = i * kClusters; c < std::min(clusters_.size(), (i + 1) * kClusters); ++c)
-                placeCluster(points, c, out.clusters[c]);
+                kernel.place(points.data(), &triangles_[kLanes * c], clusters_[c].count, out.clusters[c]);
             return;
         }
         const std::size_t first = (i - ofClusters) * kEdges;

@@ -51,7 +51,7 @@ public:
     std::vector<Part> partsOf(std::size_t level, std::span<const std::uint32_t> triangles) const;
 
     /// \param points  of a frame, with an extent of 1
-    void place(std::span<const glm::vec3> points, unsigned threads, Frame& out) const;
+    void place(std::span<const glm::vec3> points, const SilhouetteKernel& kernel, unsigned threads, Frame& out) const;
 
     /// The edges that bound what out.members hide from each receiver.
     /// \param box  about the receivers, or more \param corners  [receiver][] of the triangles of level 0 that meet
@@ -73,7 +73,6 @@ private:
         std::uint32_t count = 0;  ///< triangles
         BackSides backs = BackSides::None;
     };
-    void placeCluster(std::span<const glm::vec3> points, std::size_t cluster, TriangleCluster& out) const;
     void addCluster(std::size_t level, const std::vector<glm::uvec3>& triangles, std::span<const std::uint32_t> some,
                     BackSides backs);
     void joinEdges();

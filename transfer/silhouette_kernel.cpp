@@ -19,14 +19,14 @@ template <int N>
 SilhouetteKernel kernelOf([[maybe_unused]] VectorSet set) {
 #if defined(__x86_64__)
     if (set == VectorSet::Avx512)
-        return {avx512::classify, avx512::face, avx512::differ, avx512::nearPole,
-                avx512::overhead, avx512::deal, avx512::add<N>, avx512::finish<N>};
+        return {avx512::place,    avx512::classify, avx512::face,   avx512::differ,   avx512::nearPole,
+                avx512::overhead, avx512::deal,     avx512::add<N>, avx512::finish<N>};
     if (set == VectorSet::Avx2)
-        return {avx2::classify, avx2::face, avx2::differ, avx2::nearPole,
-                avx2::overhead, avx2::deal, avx2::add<N>, avx2::finish<N>};
+        return {avx2::place,    avx2::classify, avx2::face,   avx2::differ,   avx2::nearPole,
+                avx2::overhead, avx2::deal,     avx2::add<N>, avx2::finish<N>};
 #endif
-    return {plain::classify, plain::face, plain::differ, plain::nearPole,
-            plain::overhead, plain::deal, plain::add<N>, plain::finish<N>};
+    return {plain::place,    plain::classify, plain::face,   plain::differ,   plain::nearPole,
+            plain::overhead, plain::deal,     plain::add<N>, plain::finish<N>};
 }
 
 }  // namespace

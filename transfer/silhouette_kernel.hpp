@@ -88,6 +88,8 @@ struct PoleTriangles {
 };
 
 struct SilhouetteKernel {
+    /// A cluster where its points are now. \param triangles  sixteen; those from `count` on have no area
+    void (*place)(const glm::vec3* points, const glm::uvec3* triangles, std::size_t count, TriangleCluster& out);
     ClusterFlags (*classify)(const TriangleCluster& cluster, const ReceiverLanes& receivers);
     /// Low sixteen bits of `out`: for which receivers the triangle faces; high ones: to which it turns its back. Of
     /// `seen`'s bits alone, without those of own[triangle], and of the triangles in `members`: the others' are 0.

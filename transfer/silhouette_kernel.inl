@@ -6,6 +6,52 @@ NACRE_INLINE Columns from(const float* p, const Columns& q) { return {splat(p[0]
 
 constexpr float kRounding = 2e-6f;  // of the extent
 
+void place(const glm::vec3* points, const glm::uvec3* triangles, std::size_t count, TriangleCluster& out) {
+    for (int t = 0; t < kLanes; ++t)
+        for (int c = 0; c < 3; ++c) {
+            const glm::vec3& p = points[triangles[t][c]];
+            for (int axis = 0; axis < 3; ++axis) out.corners[3 * c + axis][t] = p[axis];
+        }
+    Columns corners[3];
+    for (int c = 0; c < 3; ++c) corners[c] = {load(out.corners[3 * c]), load(out.corners[3 * c + 1]), load(out.corners[3 * c + 2])};
+    const auto& [a, b, c] = corners;
+    const Columns n = cross(b - a, c - a);
+    const Floats length = lengthOf(n), inverse = choose(length > Floats{}, splat(1) / larger(length, splat(1e-37f)), Floats{});
+    const Columns unit{n.x * inverse, n.y * inverse, n.z * inverse};
+    store(out.normal[0], unit.x), store(out.normal[1], unit.y), store(out.normal[2], unit.z);
+    store(out.offset, dot(unit, a));
+    const Floats third = splat(1.0f / 3);
+    const Columns middle{(a.x + b.x + c.x) * third, (a.y + b.y + c.y) * third, (a.z + b.z + c.z) * third};
+    store(out.middle[0], middle.x), store(out.middle[1], middle.y), store(out.middle[2], middle.z);
+    Floats reach{};
+    for (const Columns& p : corners) {
+        const Columns d = p - middle;
+        reach = larger(reach, dot(d, d));
+    }
+    store(out.reach, root(reach));
+    const auto ends = [&](const Floats& x, const Floats& y, const Floats& z, float& low, float& high) {
+        float lows[kWide], highs[kWide];
+        store(lows, smaller(x, smaller(y, z)));
+        store(highs, larger(x, larger(y, z)));
+        low = *std::min_element(lows, lows + count);
+        high = *std::max_element(highs, highs + count);
+    };
+    glm::vec3 low, high;
+    ends(a.x, b.x, c.x, low.x, high.x);
+    ends(a.y, b.y, c.y, low.y, high.y);
+    ends(a.z, b.z, c.z, low.z, high.z);
+    const glm::vec3 centre = 0.5f * (low + high);
+    float radii[kWide];
+    Floats radius{};
+    for (const Columns& p : corners) {
+        const Columns d = p - centre;
+        radius = larger(radius, dot(d, d));
+    }
+    store(radii, root(radius));
+    out.radius = *std::max_element(radii, radii + count);
+    for (int axis = 0; axis < 3; ++axis) out.centre[axis] = centre[axis];
+}
+
 ClusterFlags classify(const TriangleCluster& b, const ReceiverLanes& receivers) {
     const Columns d = from(b.centre, columnsOf(receivers.point));
     const Floats radius = splat(b.radius), height = dot(columnsOf(receivers.normal), d);

@@ -29,7 +29,7 @@ Words bySilhouettes(const Shape& shape, std::span<const Receiver> receivers, std
     const SilhouetteMesh mesh(levels, shape.points, sides);
     const SilhouetteKernel kernel = silhouetteKernel(size, set);
     SilhouetteMesh::Frame frame;
-    mesh.place(shape.points, 1, frame);
+    mesh.place(shape.points, kernel, 1, frame);
     SilhouetteMesh::Seen seen;
     for (std::size_t c = 0; c < mesh.clusterCount(); ++c) seen.members.push_back(mesh.all(c));
     const std::vector<std::span<const std::uint32_t>> corners(receivers.size());
