@@ -133,10 +133,13 @@ TransferRun runTransfer(const AnimatedMesh& animation, const TransferPlan& plan,
     const auto frameAt = [&](int f) -> const std::vector<glm::vec3>& {
         return animation.frames[static_cast<std::size_t>(f)];
     };
-    int rest = first;
-    while (rest < end && !allFinite(frameAt(rest))) ++rest;
-    if (rest == end)
+    const auto firstFinite = [&](int f) {
+        while (f < end && !allFinite(frameAt(f))) ++f;
+        return f;
+    };
+    if (firstFinite(first) == end)
         throw Error(fmt::format("{}: expected finite positions, found none in frames {} to {}", name, first, end - 1));
+    const int rest = firstFinite(0);  // whichever frames are wanted: groups, levels and sets are the motion's
     const WeldedMesh mesh = weldMesh(animation, name);
     out.order = plan.options.order;
     out.framesPerSecond = animation.framesPerSecond;

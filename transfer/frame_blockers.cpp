@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 
 #include "core/parallel.hpp"
 
@@ -101,6 +102,16 @@ void MovingLevels::placePatch(std::span<const glm::vec3> positions, std::size_t 
             off = std::max(off, offPlane(out.rows[firstRow_[l] + pair.y], positions[pair.x]));
         columns.off[l][p] = off;
     }
+}
+
+std::vector<std::vector<std::uint32_t>> MovingLevels::patchesOfTriangles() const {
+    if (levelCount() == 1) return {};
+    std::vector<std::vector<std::uint32_t>> out(levelCount());
+    for (std::size_t l = 0; l + 1 < levelCount(); ++l)
+        for (const glm::uvec3& t : levels_.levels[l].triangles) out[l].push_back(coarsestOf(t.x));
+    out.back().resize(coarsestTriangles());
+    std::iota(out.back().begin(), out.back().end(), 0u);
+    return out;
 }
 
 std::vector<glm::vec3> MovingLevels::unpushed(std::span<const glm::vec3> positions) const {

@@ -33,6 +33,8 @@ public:
     /// Positions of the mesh as the points of all levels, without the coarser ones' push.
     std::vector<glm::vec3> unpushed(std::span<const glm::vec3> positions) const;
 
+    /// [level][triangle] the patch of its first corner, of the coarsest its own; none when there is one level.
+    std::vector<std::vector<std::uint32_t>> patchesOfTriangles() const;
     const std::vector<BlockerLevels::Patch>& patches() const { return levels_.patches; }
     std::size_t levelCount() const { return levels_.levels.size(); }
     std::size_t coarsestTriangles() const { return levels_.levels.back().triangles.size(); }

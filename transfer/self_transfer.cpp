@@ -6,20 +6,17 @@
 #include <cmath>
 #include <limits>
 #include <mutex>
-#include <numeric>
 #include <utility>
 
 #include "core/error.hpp"
 #include "core/parallel.hpp"
-#include "transfer/frame_blockers.hpp"
-#include "transfer/silhouette_blockers.hpp"
+#include "transfer/blocker_lists.hpp"
 #include "transfer/thread_seconds.hpp"
 
 namespace nacre {
 namespace {
 
-constexpr std::size_t kGroup = kLanes;  ///< vertices that share a list
-constexpr std::uint32_t kNoCluster = std::numeric_limits<std::uint32_t>::max();
+constexpr std::size_t kGroup = kLanes;   ///< vertices that share a list
 constexpr std::size_t kTimedGroups = 8;  ///< one of so many is timed
 
 struct GroupResult {
@@ -29,19 +26,13 @@ struct GroupResult {
 
 /// What a thread keeps from group to group.
 struct Scratch {
-    std::vector<std::uint8_t> levels;
-    std::vector<std::uint16_t> hidden;
+    BlockerLists::Room lists;
     SilhouetteMesh::Seen seen;
     std::vector<std::int16_t> layers;
     std::vector<std::uint32_t> masks;
     std::vector<float> local, world, sums;
     std::vector<Receiver> receivers;
 };
-
-void sortUnique(std::vector<std::uint32_t>& numbers) {
-    std::sort(numbers.begin(), numbers.end());
-    numbers.erase(std::unique(numbers.begin(), numbers.end()), numbers.end());
-}
 
 /// About the first vertex and with an extent of 1: far from the origin floats are coarse, and they end.
 std::vector<glm::vec3> normalized(std::span<const glm::vec3> given) {
@@ -67,15 +58,10 @@ struct SelfTransfer::State {
     MovingLevels levels;
     BlockingParts parts;
     std::vector<std::vector<std::uint32_t>> groups;
-    std::vector<std::vector<SilhouetteMesh::Part>> near;  ///< [group] triangles of the mesh within the rings
-    std::vector<std::vector<std::uint32_t>> nearPatches;  ///< [group] of sheets, whose levels would lie over it
-    float nearby = 0;                                     ///< radii; infinity: all is near
-    std::vector<float> angles;                            ///< [group] lodAngle, less where little light gets to
+    float nearby = 0;           ///< radii; infinity: all is near
+    std::vector<float> angles;  ///< [group] lodAngle, less where little light gets to
     SilhouetteMesh silhouettes;
-    std::vector<SilhouetteMesh::Part> patchParts;
-    std::vector<std::uint32_t> firstPart;  ///< [patch × levels + level], one more: in patchParts
-    std::vector<std::uint32_t>
-        coarsestOf;  ///< [patch / 16] the cluster whose triangles are the coarsest of these patches
+    BlockerLists lists;
     SilhouetteKernel kernel;
     BlockerKernel blockerKernels;
     MaskKernel maskKernels;
@@ -87,12 +73,10 @@ struct SelfTransfer::State {
     std::vector<std::unique_ptr<FrameBlockers>> spare;  ///< room of earlier frames: one a call at a time
 
     State(WeldedMesh m, std::span<const glm::vec3> rest, const SelfTransferOptions& o);
-    void findNear();
     std::unique_ptr<FrameBlockers> takeSpare();
     void keepSpare(std::unique_ptr<FrameBlockers> blockers);
     void makeGroups(std::span<const glm::vec3> rest, std::span<const std::uint8_t> dark);
-    std::vector<std::vector<std::uint32_t>> patchesOfTriangles() const;
-    void makeSilhouettes(std::span<const glm::vec3> rest);
+    SilhouetteMesh makeSilhouettes(std::span<const glm::vec3> rest) const;
     std::size_t listBlockers(const FrameBlockers& blockers, const GroupBounds& bounds, std::size_t group,
                              const BlockerSets& sets, Scratch& scratch) const;
     std::size_t setWords() const { return (kLanes * silhouettes.clusterCount() + 63) / 64; }
@@ -109,6 +93,8 @@ SelfTransfer::State::State(WeldedMesh m, std::span<const glm::vec3> rest, const 
       levels(makeBlockerLevels(mesh, rest, {o.coarse.value_or(usualCoarse(mesh.triangles.size()))}),
              mesh.vertexCount()),
       parts(blockingParts(mesh, rest, o.sides)),
+      silhouettes(makeSilhouettes(rest)),
+      lists(levels, silhouettes),
       kernel(silhouetteKernel(o.mask, o.vectors)),
       blockerKernels(blockerKernel(o.vectors)),
       maskKernels(maskKernel(o.mask, o.vectors)),
@@ -120,22 +106,10 @@ SelfTransfer::State::State(WeldedMesh m, std::span<const glm::vec3> rest, const 
     options.coarse = o.coarse.value_or(usualCoarse(mesh.triangles.size()));
     options.nearby = o.nearby.value_or(usualNearby(o.mask));
     nearby = *options.nearby > 0 ? static_cast<float>(*options.nearby) : std::numeric_limits<float>::infinity();
-    makeSilhouettes(rest);
     makeGroups(rest, {});
 }
 
-/// [level][triangle] the patch of its first corner, of the coarsest its own.
-std::vector<std::vector<std::uint32_t>> SelfTransfer::State::patchesOfTriangles() const {
-    if (levels.levelCount() == 1) return {};
-    std::vector<std::vector<std::uint32_t>> out(levels.levelCount());
-    for (std::size_t l = 0; l + 1 < levels.levelCount(); ++l)
-        for (const glm::uvec3& t : levels.vertexTriangles(l)) out[l].push_back(levels.coarsestOf(t.x));
-    out.back().resize(levels.coarsestTriangles());
-    std::iota(out.back().begin(), out.back().end(), 0u);
-    return out;
-}
-
-void SelfTransfer::State::makeSilhouettes(std::span<const glm::vec3> rest) {
+SilhouetteMesh SelfTransfer::State::makeSilhouettes(std::span<const glm::vec3> rest) const {
     const BackSides inner = parts.hasShells || parts.sides == BlockingSides::Fine ? BackSides::Inside : BackSides::None;
     std::vector<std::vector<glm::uvec3>> triangles;
     std::vector<std::vector<BackSides>> backs(levels.levelCount());
@@ -144,25 +118,7 @@ void SelfTransfer::State::makeSilhouettes(std::span<const glm::vec3> rest) {
         for (const glm::uvec3& t : levels.vertexTriangles(l))
             backs[l].push_back(parts.sheets[t.x] ? BackSides::All : l == 0 ? inner : BackSides::None);
     }
-    silhouettes = SilhouetteMesh(triangles, levels.unpushed(rest), backs, patchesOfTriangles());
-    if (levels.levelCount() == 1) return;
-    for (const BlockerLevels::Patch& patch : levels.patches())
-        for (std::size_t l = 0; l < levels.levelCount(); ++l) {
-            firstPart.push_back(static_cast<std::uint32_t>(patchParts.size()));
-            const std::vector<SilhouetteMesh::Part> some = silhouettes.partsOf(l, patch.triangles[l]);
-            patchParts.insert(patchParts.end(), some.begin(), some.end());
-        }
-    firstPart.push_back(static_cast<std::uint32_t>(patchParts.size()));
-    const std::size_t count = levels.levelCount();
-    for (std::size_t p = 0; p < levels.patches().size(); p += kLanes) {
-        const std::uint32_t cluster = patchParts[firstPart[count * p + count - 1]].cluster;
-        bool alike = true;
-        for (std::size_t k = 0; k < std::min<std::size_t>(kLanes, levels.patches().size() - p); ++k) {
-            const SilhouetteMesh::Part& part = patchParts[firstPart[count * (p + k) + count - 1]];
-            alike &= part.cluster == cluster && part.triangles == 1u << k;
-        }
-        coarsestOf.push_back(alike ? cluster : kNoCluster);
-    }
+    return SilhouetteMesh(triangles, levels.unpushed(rest), backs, levels.patchesOfTriangles());
 }
 
 /// Vertices that need more blockers than others, dark ones and those that see backs, are in groups of their own.
@@ -182,35 +138,7 @@ void SelfTransfer::State::makeGroups(std::span<const glm::vec3> rest, std::span<
             angles.push_back(static_cast<float>(options.lodAngle) * kAngles[kind % 3]);
         }
     }
-    findNear();
-}
-
-/// The triangles of all vertices within the rings, and the patches that a triangle of some level joins with theirs: no
-/// coarse one lies over the group.
-void SelfTransfer::State::findNear() {
-    near.assign(groups.size(), {});
-    nearPatches.assign(groups.size(), {});
-    if (levels.levelCount() == 1) return;
-    for (std::size_t g = 0; g < groups.size(); ++g) {
-        std::vector<std::uint32_t> reached = groups[g], triangles;
-        for (int ring = 0; ring <= options.rings; ++ring) {
-            triangles.clear();
-            for (const std::uint32_t v : reached) {
-                if (parts.sheets[v])
-                    for (const std::uint32_t patch : levels.joined(levels.coarsestOf(v)))
-                        nearPatches[g].push_back(patch);
-                for (std::uint32_t i = corners.first[v]; i < corners.first[v + 1]; ++i)
-                    triangles.push_back(corners.order[i] / 3);
-            }
-            sortUnique(triangles);
-            reached.clear();
-            for (const std::uint32_t t : triangles)
-                for (int c = 0; c < 3; ++c) reached.push_back(mesh.triangles[t][c]);
-            sortUnique(reached);
-        }
-        sortUnique(nearPatches[g]);
-        near[g] = silhouettes.partsOf(0, triangles);
-    }
+    lists.setGroups(groups, mesh, corners, parts, options.rings);
 }
 
 std::unique_ptr<FrameBlockers> SelfTransfer::State::takeSpare() {
@@ -230,41 +158,11 @@ void SelfTransfer::State::keepSpare(std::unique_ptr<FrameBlockers> blockers) {
 std::size_t SelfTransfer::State::listBlockers(const FrameBlockers& blockers, const GroupBounds& bounds,
                                               std::size_t group, const BlockerSets& sets, Scratch& scratch) const {
     std::vector<std::uint32_t>& members = scratch.seen.members;
-    members.assign(silhouettes.clusterCount(), 0);
-    std::size_t hidden = 0;
-    if (levels.levelCount() == 1) {
-        for (std::size_t c = 0; c < members.size(); ++c) members[c] = silhouettes.all(c);
-    } else {
-        const std::size_t patches = levels.patches().size(), count = levels.levelCount();
-        scratch.levels.resize(patches + kLanes);
-        scratch.hidden.resize(patches / kLanes + 1);
-        blockerKernels.choose(blockers.patches, bounds, angles[group], scratch.levels.data(), scratch.hidden.data());
-        // A coarse triangle next to the vertex is harmless while its back lets light through.
-        for (const std::uint32_t p : nearPatches[group]) scratch.levels[p] = 0;
-        const auto add = [&](const SilhouetteMesh::Part& part) { members[part.cluster] |= part.triangles; };
-        std::for_each(near[group].begin(), near[group].end(), add);
-        for (std::size_t first = 0; first < patches; first += kLanes) {
-            const std::size_t block = first / kLanes;
-            const std::uint8_t* level = &scratch.levels[first];
-            std::uint32_t left = (1u << std::min<std::size_t>(kLanes, patches - first)) - 1, coarsest = 0;
-            hidden += static_cast<std::size_t>(std::popcount(left & scratch.hidden[block]));
-            left &= ~std::uint32_t{scratch.hidden[block]};
-            if (coarsestOf[block] != kNoCluster) {
-                for (std::size_t k = 0; k < kLanes; ++k) coarsest |= (level[k] + 1u == count ? 1u : 0u) << k;
-                members[coarsestOf[block]] |= coarsest & left;
-            }
-            for (left &= ~coarsest; left; left &= left - 1) {
-                const auto k = static_cast<std::size_t>(std::countr_zero(left));
-                const std::uint32_t* part = &firstPart[count * (first + k) + level[k]];
-                std::for_each(&patchParts[part[0]], patchParts.data() + part[1], add);
-            }
-        }
-    }
+    std::size_t listed = lists.list(group, bounds, angles[group], blockers, blockerKernels, scratch.lists, members);
     if (!sets.visible.empty())
         for (std::size_t c = 0; c < members.size(); ++c)
             members[c] &=
                 static_cast<std::uint32_t>(sets.visible[group * setWords() + c / 4] >> c % 4 * kLanes) & 0xffffu;
-    std::size_t listed = hidden;
     for (const std::uint32_t some : members)
         if (some) listed += static_cast<std::size_t>(std::popcount(some));
     return listed;
@@ -342,8 +240,8 @@ SelfTransfer::SelfTransfer(WeldedMesh mesh, std::span<const glm::vec3> rest, con
                            std::span<const std::vector<glm::vec3>> poses) {
     require(options.rings == 1 || options.rings == 2, "transfer: expected 1 or 2 rings");
     require(std::isfinite(options.lodAngle) && options.lodAngle >= 0, "transfer: expected an angle of 0 or more");
-    require(!options.nearby || (*options.nearby >= 0 && std::isfinite(*options.nearby)),
-            "transfer: expected radii of 0 or more");
+    require(!options.nearby || *options.nearby == 0 || (*options.nearby >= 1 && std::isfinite(*options.nearby)),
+            "transfer: expected radii of 1 or more, or 0");
     require(rest.size() == mesh.vertexCount(), "transfer: expected a position a vertex");
     state_ = std::make_unique<State>(std::move(mesh), rest, options);
     State& s = *state_;
@@ -384,8 +282,7 @@ std::size_t SelfTransfer::bytes() const {
     const std::size_t vertices = s.mesh.vertexCount();
     std::size_t sum = bytesOf(s.mesh.weldOf) + bytesOf(s.mesh.firstOf) + bytesOf(s.mesh.triangles) + s.corners.bytes() +
                       s.levels.bytes() + bytesOf(s.parts.sheets) + bytesOf(s.parts.inside) + bytesOf(s.groups) +
-                      bytesOf(s.near) + bytesOf(s.nearPatches) + bytesOf(s.angles) + bytesOf(s.patchParts) +
-                      s.silhouettes.bytes();
+                      bytesOf(s.angles) + s.lists.bytes() + s.silhouettes.bytes();
     for (const std::unique_ptr<FrameBlockers>& blockers : s.spare) sum += blockers->bytes();
     return sum + vertices * (2 * sizeof(glm::vec3) + s.open.size() * s.open.size() * sizeof(float));
 }

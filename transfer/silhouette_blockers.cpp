@@ -203,7 +203,7 @@ void SilhouetteMesh::see(const Frame& frame, const SilhouetteKernel& kernel, std
                                                                        : inside;
         const std::uint32_t seen = f.above | (f.above & backs) << 16;
         const glm::vec3 away = glm::vec3(placed.centre[0], placed.centre[1], placed.centre[2]) - lanes.box.middle;
-        const float nearest = nearby * box.radius + placed.radius;
+        const float nearest = nearby * box.radius + placed.radius + kRounding;
         const ClusterFaces faces = kernel.face(placed, lanes, glm::dot(away, away) > nearest * nearest, seen,
                                                out.members[c], out.own.data() + kLanes * c, sides);
         if (!faces.alike) out.look[c] |= kInside;

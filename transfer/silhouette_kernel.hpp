@@ -51,6 +51,7 @@ inline std::size_t layerCounts(int size) { return static_cast<std::size_t>(size)
 /// A triangle faces a point that is farther in front of it [of the extent]: on which side of it nearer ones are,
 /// rounding decides, and in a receiver's frame perhaps otherwise.
 inline constexpr float kFacing = 1e-7f;
+inline constexpr float kRounding = 2e-6f;  ///< of positions and planes, at most [of the extent]
 
 /// A mesh's edges by the places of the triangles on their two sides; an edge runs along `a` as that stands and along
 /// `b` reversed. Cluster c's own lie from inside[c] to between[c], those to others and bare ones, each at one of its
@@ -93,7 +94,7 @@ struct SilhouetteKernel {
     ClusterFlags (*classify)(const TriangleCluster& cluster, const ReceiverLanes& receivers);
     /// Low sixteen bits of `out`: for which receivers the triangle faces; high ones: to which it turns its back. Of
     /// `seen`'s bits alone, without those of own[triangle], and of the triangles in `members`: the others' are 0.
-    /// \param one  the middle's view stands for all receivers'; for each else
+    /// \param one  the box's middle's view stands for all receivers', none of which meets the cluster
     ClusterFaces (*face)(const TriangleCluster& cluster, const ReceiverLanes& receivers, bool one, std::uint32_t seen,
                          std::uint32_t members, const std::uint32_t* own, std::uint32_t* out);
     /// \param sides  [place] as face has it  \param look  [cluster] kInside and kBetween for edges that may differ

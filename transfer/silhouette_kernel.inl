@@ -4,8 +4,6 @@
 NACRE_INLINE Columns columnsOf(const float (&v)[3][kLanes]) { return {load(v[0]), load(v[1]), load(v[2])}; }
 NACRE_INLINE Columns from(const float* p, const Columns& q) { return {splat(p[0]) - q.x, splat(p[1]) - q.y, splat(p[2]) - q.z}; }
 
-constexpr float kRounding = 2e-6f;  // of the extent
-
 void place(const glm::vec3* points, const glm::uvec3* triangles, std::size_t count, TriangleCluster& out) {
     for (int t = 0; t < kLanes; ++t)
         for (int c = 0; c < 3; ++c) {
@@ -59,11 +57,15 @@ ClusterFlags classify(const TriangleCluster& b, const ReceiverLanes& receivers) 
     return {lanes(above), lanes(above & (dot(d, d) - height * height <= splat(1.0001f) * radius * radius + splat(kRounding * kRounding)))};
 }
 
+NACRE_INLINE Mask upwards() {
+    Mask out;
+    for (int k = 0; k < kWide; ++k) out[k] = k;
+    return out;
+}
+
 /// The lanes whose bits are set.
 NACRE_INLINE Mask chosen(std::uint32_t bits) {
-    Bits bit;
-    for (int t = 0; t < kLanes; ++t) bit[t] = 1u << t;
-    return (bit & bits) != 0;
+    return ((Bits{} + 1u) << as<Bits>(upwards()) & bits) != 0;
 }
 
 ClusterFaces face(const TriangleCluster& cluster, const ReceiverLanes& receivers, bool one, std::uint32_t seen, std::uint32_t members,
@@ -93,10 +95,10 @@ void differ(const EdgeSides& edges, const std::uint32_t* sides, const std::uint8
     std::uint32_t *const edge = out.edge.data(), *const differing = out.sides.data(), *const first = out.first.data();
     const std::size_t clusters = edges.between.size();
 #if NACRE_SET == 512
-    const __m512i zero = _mm512_setzero_si512(), upwards = _mm512_set_epi32(15, 14, 13, 12, 11, 10, 9, 8, 7, 6, 5, 4, 3, 2, 1, 0);
+    const __m512i zero = _mm512_setzero_si512(), numbers = as<__m512i>(upwards());
     const auto add = [&](std::size_t e, const __m512i& a, const __m512i& b) {
         const unsigned some = _mm512_cmpneq_epi32_mask(a, b);
-        append(edge, count, _mm512_add_epi32(_mm512_set1_epi32(static_cast<int>(e)), upwards), some);
+        append(edge, count, _mm512_add_epi32(_mm512_set1_epi32(static_cast<int>(e)), numbers), some);
         append(differing, count, _mm512_xor_si512(a, b), some);
         count = append(first, count, a, some);
     };
@@ -138,12 +140,6 @@ NACRE_INLINE Mask turnsLeft(const Floats& turn, const Floats& x0, const Floats& 
     return (turn > Floats{}) | ((turn == Floats{}) & ((x1 > x0) | ((x1 == x0) & (y1 > y0))));
 }
 
-NACRE_INLINE Mask upwards() {
-    Mask out;
-    for (int k = 0; k < kWide; ++k) out[k] = k;
-    return out;
-}
-
 /// A number of the triangles at sixteen places.
 NACRE_INLINE Floats atPlaces(const float* clusters, const Mask& places, int column) {
     constexpr int kStride = sizeof(TriangleCluster) / sizeof(float);
@@ -180,9 +176,9 @@ void nearPole(const TriangleCluster& cluster, std::uint32_t number, const Receiv
 
 std::int32_t overhead(const TriangleCluster* clusters, std::uint32_t* items, std::size_t count, const Receiver& receiver) {
     std::int32_t layers = 0;
+    for (std::size_t k = count; k % kWide; ++k) items[k] = items[count - 1];
     for (std::size_t i = 0; i < count; i += kWide) {
         const unsigned used = count - i >= kWide ? 0xffffu : (1u << (count - i)) - 1;
-        for (std::size_t k = count; k % kWide; ++k) items[k] = items[count - 1];
         Bits item;
         std::memcpy(&item, items + i, sizeof(item));
         const Mask back = as<Mask>(item << 31);

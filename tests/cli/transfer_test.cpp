@@ -138,6 +138,10 @@ TEST(CommandTransfer, VisibleSetsListLessAndChangeNothing) {
     EXPECT_EQ(read["pvs"]["made"], false);
     EXPECT_EQ(readTransfer(scratch / "a.tv").blocks[4].coefficients, expected);
 
+    // Some of the frames only: the same groups, so the same sets.
+    EXPECT_EQ(nacre({"transfer", "cloth", "-o", scratch / "a.tv", "--frames", "5:8", "--pvs", sets, "--json"}).code, 0);
+    EXPECT_EQ(readTransfer(scratch / "a.tv").blocks[2].coefficients, expected);
+
     const auto refused = [&](const std::vector<std::string>& more, int code, const std::string& fragment) {
         std::vector<std::string> words = {"transfer", "cloth", "-o", scratch / "b.tv", "--pvs", sets};
         words.insert(words.end(), more.begin(), more.end());
@@ -305,6 +309,7 @@ TEST(CommandTransfer, WrongUsageIsTwoInOneLine) {
         {{"--vectors", "sse"}, "--vectors"},
         {{"--lod-angle", "-1"}, "--lod-angle"},
         {{"--nearby", "-1"}, "--nearby"},
+        {{"--nearby", "0.5"}, "found '0.5'"},
         {{"--nearby", "nan"}, "--nearby"},
         {{"--lut", "64", "--nearby", "2"}, "--nearby: expected no --lut"},
         {{"--frames", "3"}, "A:B"},
@@ -320,6 +325,10 @@ TEST(CommandTransfer, WrongUsageIsTwoInOneLine) {
         {{"--turn", "10"}, "expected --ply"},
         {{"--pvs-window", "4"}, "--pvs-window: expected --pvs"},
         {{"--ply", "a#b#.ply"}, "one row of #"},
+        {{"--ply", "a.ply"}, "one row of #"},
+        {{"--rings", "2", "--coarse", "0"}, "--rings: expected levels of detail"},
+        {{"--lod-angle", "0.5", "--coarse", "0"}, "--lod-angle: expected levels of detail"},
+        {{"--reference-frames", "3"}, "--reference-frames: expected --reference"},
     };
     for (const auto& [more, fragment] : cases) {
         std::vector<std::string> words = {"transfer", "cloth", "-o", scratch / "a.tv"};

@@ -234,7 +234,7 @@ TEST(SelfTransfer, RefusesWhatItCannotCompute) {
     for (const auto change :
          {+[](SelfTransferOptions& x) { x.mask = 48; }, +[](SelfTransferOptions& x) { x.order = 7; },
           +[](SelfTransferOptions& x) { x.rings = 3; }, +[](SelfTransferOptions& x) { x.lodAngle = -1; },
-          +[](SelfTransferOptions& x) { x.nearby = -1; }}) {
+          +[](SelfTransferOptions& x) { x.nearby = 0.5; }}) {
         o = {};
         change(o);
         EXPECT_THROW(SelfTransfer(mesh, positions, o), std::invalid_argument);
