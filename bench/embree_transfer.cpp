@@ -10,6 +10,7 @@
 #include "core/math.hpp"
 #include "core/parallel.hpp"
 #include "envmaps/spherical_harmonics.hpp"
+#include "reference/transfer_trace.hpp"
 
 namespace nacre::bench {
 namespace {
@@ -151,7 +152,8 @@ TransferFrame EmbreeTransfer::compute(std::span<const glm::vec3> positions) cons
             const glm::vec3 n = frame.normals[v] != glm::vec3(0) ? frame.normals[v] : glm::vec3(0, 0, 1);
             receivers[i] = receiverAt(positions[v], n, v);
             float hidden[32] = {};
-            s.traceHidden(receivers[i], positions[v] + 1e-5f * extent * n, 1e3f * extent, hidden);
+            s.traceHidden(receivers[i], positions[v] + static_cast<float>(kTransferLift) * extent * n, 1e3f * extent,
+                          hidden);
             for (std::size_t c = 0; c < kCoefficients; ++c) local[c * kPacket + i] = -hidden[c];
             for (std::size_t l = 0; l <= kOrder; ++l) local[(l * l + l) * kPacket + i] += static_cast<float>(s.open[l]);
         }

@@ -221,6 +221,9 @@ void runTransferVerb(const Context& context, Settings s) {
     s.plan.options.vectors = vectorSetFromString(s.vectors);
     maskKernel(s.plan.options.mask, s.plan.options.vectors);  // a processor without these vectors: said before the work
     requireWritable({s.model}, s.output, provisionalName(s.output), "");
+    for (const auto& [flag, other] : {std::pair("--pvs", s.plan.visibleSets), {"--ply", s.ply}})
+        if (!other.empty() && std::filesystem::weakly_canonical(other) == std::filesystem::weakly_canonical(s.output))
+            throw UsageError(fmt::format("{}: expected another file than -o, found '{}'", flag, other));
     if (!s.ply.empty()) requirePlyPlace(s.ply, s.plan.first);
     if (s.plan.windowFrames > 0 && s.plan.visibleSets.empty())
         throw UsageError("--pvs-window: expected --pvs, found none");
@@ -307,7 +310,7 @@ std::vector<Option> options(const std::shared_ptr<Settings>& s) {
         {"--clip", "NAME", "Of the file's animations, by name or number from 0 (default 0)", into(s->clip)},
         {"--mask",
          "N",
-         "Bits a side of the hemisphere's mask (default 32: errs 1 to 2 %; 64: a third of it, in 1.3 to 1.5 times the "
+         "Bits a side of the hemisphere's mask (default 32: errs about 1 %; 64: a third of it, in 1.3 to 1.5 times the "
          "time; 16: 2 to 4 %, hardly faster)",
          own("--mask", [s](const std::string& given) { s->plan.options.mask = std::stoi(given); }),
          false,
@@ -332,7 +335,7 @@ std::vector<Option> options(const std::shared_ptr<Settings>& s) {
         {"--nearby", "R",
          "Sixteen vertices share the silhouettes of what is farther than R radii, 1 or more, of their group; 0: each "
          "finds its own "
-         "(default mask / 16, which takes a fifth less time and errs a tenth more at most)",
+         "(default mask / 16, which takes a fifth less time and errs up to a sixth more)",
          own("--nearby", [s](const std::string& given) { takeNearby(*s, given); })},
         {"--pvs", "FILE",
          "Potentially visible sets: read from FILE where it is, else made from these frames and written there; "

@@ -8,6 +8,7 @@
 #include "core/sampling.hpp"
 #include "envmaps/spherical_harmonics.hpp"
 #include "reference/embree_scene.hpp"
+#include "reference/transfer_trace.hpp"
 
 namespace nacre {
 
@@ -19,29 +20,18 @@ IsotropicBrdf phongLobe(double exponent) {
     };
 }
 
-static double extentOf(std::span<const glm::vec3> positions) {
-    glm::dvec3 low(positions[0]), high = low;
-    for (const glm::vec3& p : positions) {
-        low = glm::min(low, glm::dvec3(p));
-        high = glm::max(high, glm::dvec3(p));
-    }
-    return maxComponent(high - low);
-}
-
 std::vector<double> tracedGlossyTransfer(std::span<const glm::uvec3> triangles, std::span<const glm::vec3> positions,
                                          std::span<const glm::vec3> normals, const Vec3& eye, const IsotropicBrdf& f,
                                          int order, std::size_t rays) {
     require(order >= 0 && rays >= 1, "traced transfer: expected an order of 0 or more and at least one ray");
     require(!positions.empty() && normals.size() == positions.size(), "traced transfer: expected a normal a position");
-    Mesh mesh;
-    mesh.positions.assign(positions.begin(), positions.end());
-    mesh.triangles.assign(triangles.begin(), triangles.end());
+    const Mesh mesh = meshOfExtentOne(triangles, positions);
     const EmbreeScene scene(mesh);
-    const double size = extentOf(positions), offset = 1e-5 * size;
+    constexpr double kFar = 1e3;
     const std::size_t count = static_cast<std::size_t>((order + 1) * (order + 1));
     std::vector<double> out(positions.size() * count, 0);
     parallelFor(positions.size(), 0, [&](std::size_t v) {
-        const Vec3 n = normals[v], toEye = eye - Vec3(positions[v]), p = Vec3(positions[v]) + offset * n;
+        const Vec3 n = normals[v], toEye = eye - Vec3(positions[v]), p = Vec3(mesh.positions[v]) + kTransferLift * n;
         if (n == Vec3(0) || !(glm::dot(n, toEye) > 0)) return;
         const Vec3 side = std::abs(n.x) < 0.6 ? Vec3(1, 0, 0) : Vec3(0, 1, 0);
         const Vec3 t = glm::normalize(glm::cross(side, n)), b = glm::cross(n, t), o = glm::normalize(toEye);
@@ -52,7 +42,7 @@ std::vector<double> tracedGlossyTransfer(std::span<const glm::uvec3> triangles, 
                 Vec2((static_cast<double>(k) + 0.5) / static_cast<double>(rays), radicalInverse(k, 2)) + shift;
             const Vec3 wi = cosineHemisphere(point - glm::floor(point)), s = wi.x * t + wi.y * b + wi.z * n;
             const double weight = kPi * f(wi, wo) / static_cast<double>(rays);
-            if (weight == 0 || scene.occluded({p, s, 0, 1e3 * size})) continue;
+            if (weight == 0 || scene.occluded({p, s, 0, kFar})) continue;
             const std::vector<double> y = realHarmonics(order, s);
             for (std::size_t c = 0; c < count; ++c) out[v * count + c] += weight * y[c];
         }

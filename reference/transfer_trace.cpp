@@ -46,22 +46,29 @@ double cosineFactor(int l) {
 
 }  // namespace
 
+Mesh meshOfExtentOne(std::span<const glm::uvec3> triangles, std::span<const glm::vec3> positions) {
+    Mesh mesh;
+    const double size = positions.empty() ? 0 : extent(positions), scale = size > 0 ? 1 / size : 1;
+    for (const glm::vec3& p : positions)
+        mesh.positions.emplace_back(scale * (glm::dvec3(p) - glm::dvec3(positions[0])));
+    mesh.triangles.assign(triangles.begin(), triangles.end());
+    return mesh;
+}
+
 std::vector<double> tracedTransfer(std::span<const glm::uvec3> triangles, std::span<const glm::vec3> positions,
                                    std::span<const glm::vec3> normals, std::span<const std::uint32_t> vertices,
                                    int order, std::size_t rays) {
     require(order >= 0 && rays >= 1, "traced transfer: expected an order of 0 or more and at least one ray");
     require(normals.size() == positions.size(), "traced transfer: expected a normal a position");
-    Mesh mesh;
-    mesh.positions.assign(positions.begin(), positions.end());
-    mesh.triangles.assign(triangles.begin(), triangles.end());
+    const Mesh mesh = meshOfExtentOne(triangles, positions);
     const EmbreeScene scene(mesh);
-    const double size = extent(positions), offset = 1e-5 * size;
+    constexpr double kFar = 1e3;
     const std::size_t count = static_cast<std::size_t>((order + 1) * (order + 1));
     std::vector<double> factors;
     for (int l = 0; l <= order; ++l) factors.push_back(cosineFactor(l));
     std::vector<double> truth(vertices.size() * count, 0);
     parallelFor(vertices.size(), 0, [&](std::size_t i) {
-        const Vec3 n = normals[vertices[i]], p = Vec3(positions[vertices[i]]) + offset * n;
+        const Vec3 n = normals[vertices[i]], p = Vec3(mesh.positions[vertices[i]]) + kTransferLift * n;
         if (n == Vec3(0)) return;
         const Vec3 side = std::abs(n.x) < 0.6 ? Vec3(1, 0, 0) : Vec3(0, 1, 0);
         const Vec3 t = glm::normalize(glm::cross(side, n)), b = glm::cross(n, t);
@@ -71,7 +78,7 @@ std::vector<double> tracedTransfer(std::span<const glm::uvec3> triangles, std::s
             const Vec2 point =
                 Vec2((static_cast<double>(k) + 0.5) / static_cast<double>(rays), radicalInverse(k, 2)) + shift;
             const Vec3 d = cosineHemisphere(point - glm::floor(point)), s = d.x * t + d.y * b + d.z * n;
-            if (!scene.occluded({p, s, 0, 1e3 * size})) continue;
+            if (!scene.occluded({p, s, 0, kFar})) continue;
             const std::vector<double> y = realHarmonics(order, s);
             for (std::size_t c = 0; c < count; ++c) hidden[c] += y[c];
         }

@@ -8,8 +8,16 @@
 
 namespace nacre {
 
+/// How far rays start over their vertex [of the mesh's extent]: past the vertex's own triangles, single precision being
+/// 1e-7, and not past what the vertex touches.
+inline constexpr double kTransferLift = 1e-6;
+
+/// What rays are traced in: about the first position and of extent 1, as floats are coarse far from the origin, and
+/// end.
+Mesh meshOfExtentOne(std::span<const glm::uvec3> triangles, std::span<const glm::vec3> positions);
+
 /// V_i = ∫ y_i(s) V(s) max(0, n·s)/π ds of each vertex, in double: y_i of the world's directions as envmaps'
-/// realHarmonics has them, V by rays from just over the vertex (1e-5 of the mesh's extent along n) that any side of any
+/// realHarmonics has them, V by rays from just over the vertex (kTransferLift along n) that any side of any
 /// triangle stops. Rays are cosine-distributed, a low-discrepancy set turned anew for each vertex; what is hidden is
 /// taken from the open hemisphere's transfer, which is known: less noise, the same mean. \param vertices  which \param
 /// normals  unit, one a position; 0 where there is none: its transfer is 0

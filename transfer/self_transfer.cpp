@@ -41,6 +41,7 @@ std::vector<glm::vec3> normalized(std::span<const glm::vec3> given) {
         low = glm::min(low, glm::dvec3(p));
         high = glm::max(high, glm::dvec3(p));
     }
+    if (given.empty()) return {};
     const double extent = std::max({high.x - low.x, high.y - low.y, high.z - low.z});
     std::vector<glm::vec3> out;
     out.reserve(given.size());
@@ -243,7 +244,7 @@ SelfTransfer::SelfTransfer(WeldedMesh mesh, std::span<const glm::vec3> rest, con
     require(!options.nearby || *options.nearby == 0 || (*options.nearby >= 1 && std::isfinite(*options.nearby)),
             "transfer: expected radii of 1 or more, or 0");
     require(rest.size() == mesh.vertexCount(), "transfer: expected a position a vertex");
-    state_ = std::make_unique<State>(std::move(mesh), rest, options);
+    state_ = std::make_unique<State>(std::move(mesh), normalized(rest), options);
     State& s = *state_;
     if (rest.empty() || (s.levels.levelCount() == 1 && !s.parts.hasShells)) return;
     constexpr double kDark = 0.5, kDarkest = 0.1;  // of an open vertex's light
@@ -263,7 +264,7 @@ SelfTransfer::SelfTransfer(WeldedMesh mesh, std::span<const glm::vec3> rest, con
     };
     darken(atRest);
     for (const std::vector<glm::vec3>& pose : poses) darken(compute(pose).coefficients);
-    s.makeGroups(rest, dark);
+    s.makeGroups(normalized(rest), dark);
 }
 SelfTransfer::~SelfTransfer() = default;
 SelfTransfer::SelfTransfer(SelfTransfer&&) noexcept = default;

@@ -48,8 +48,9 @@ struct ClusterFaces {
 /// while fewer than 32768 edges' layers fall into one step of a row.
 inline std::size_t layerCounts(int size) { return static_cast<std::size_t>(size) * static_cast<std::size_t>(size + 1); }
 
-/// A triangle faces a point that is farther in front of it [of the extent]: on which side of it nearer ones are,
-/// rounding decides, and in a receiver's frame perhaps otherwise.
+/// A point nearer to a triangle's plane [of the extent] touches it: on which side it is, rounding decides. The triangle
+/// faces it where it is against the point's normal, as the ground is under what stands on it; of two faces that lie on
+/// each other one does.
 inline constexpr float kFacing = 1e-7f;
 inline constexpr float kRounding = 2e-6f;  ///< of positions and planes, at most [of the extent]
 

@@ -73,19 +73,20 @@ ClusterFaces face(const TriangleCluster& cluster, const ReceiverLanes& receivers
     // Which side a box about the receivers is on, where it is on one; each of them else.
     const Columns n{load(cluster.normal[0]), load(cluster.normal[1]), load(cluster.normal[2])};
     const Floats front = dot(receivers.box.middle, n) - load(cluster.offset), least = splat(kFacing);
-    const Floats margin = one ? least : dot(receivers.box.half, Columns{absolute(n.x), absolute(n.y), absolute(n.z)}) + splat(kRounding);
-    const Mask ahead = front > margin, behind = front < -margin;
+    const Floats margin = one ? Floats{} : dot(receivers.box.half, Columns{absolute(n.x), absolute(n.y), absolute(n.z)}) + splat(kRounding);
+    const Mask ahead = front > margin, behind = one ? ~ahead : front < -margin;
     store(out, ((as<Bits>(ahead) & (seen & 0xffffu)) | (as<Bits>(behind) & (seen & 0xffff0000u))) & as<Bits>(chosen(members)));
     const unsigned facing = seen & 0xffffu ? lanes(ahead) & members : 0, away = seen >> 16 ? lanes(behind) & members : 0;
     unsigned left = one ? 0 : ~lanes(ahead | behind) & members;
     const bool alike = left == 0 && ((facing | away) == 0 || facing == 0xffff || away == 0xffff);
     std::uint32_t some = (facing ? seen & 0xffffu : 0) | (away ? seen & 0xffff0000u : 0);
-    const Columns points = columnsOf(receivers.point);
+    const Columns points = columnsOf(receivers.point), normals = columnsOf(receivers.normal);
     for (; left; left &= left - 1) {  // those that the triangle meets are in its plane, so that it's among these
         const int t = __builtin_ctz(left);
         const glm::vec3 normal(cluster.normal[0][t], cluster.normal[1][t], cluster.normal[2][t]);
         const Floats off = dot(normal, points) - splat(cluster.offset[t]);
-        some |= out[t] = (lanes(off > least) | lanes(off < -least) << 16) & seen & ~own[t];
+        const Mask touched = (absolute(off) <= least) & (dot(normal, normals) < Floats{});
+        some |= out[t] = (lanes((off > least) | touched) | lanes(off < -least) << 16) & seen & ~own[t];
     }
     return {some, alike};
 }

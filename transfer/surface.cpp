@@ -174,16 +174,21 @@ std::vector<std::uint32_t> connectedParts(std::span<const glm::uvec3> triangles,
 }
 
 glm::vec3 vertexNormal(const CornersOfVertices& corners, std::size_t vertex, std::span<const glm::vec3> positions) {
+    constexpr double kResidue = 1e-10;  // of what cancels: faces that lie on each other have no side
     glm::dvec3 sum(0);
+    double sizes = 0;
     const glm::dvec3 p = positions[vertex];
     for (std::uint32_t i = corners.first[vertex]; i < corners.first[vertex + 1]; ++i) {
         const glm::dvec3 a = glm::dvec3(positions[corners.others[i].x]) - p,
                          b = glm::dvec3(positions[corners.others[i].y]) - p;
         const double weight = glm::dot(a, a) * glm::dot(b, b);
-        if (weight > 0) sum += glm::cross(a, b) / weight;
+        if (!(weight > 0)) continue;
+        const glm::dvec3 part = glm::cross(a, b) / weight;
+        sum += part;
+        sizes += std::abs(part.x) + std::abs(part.y) + std::abs(part.z);
     }
     const double length = glm::length(sum);
-    return length > 0 && std::isfinite(length) ? glm::vec3(sum / length) : glm::vec3(0);
+    return length > kResidue * sizes && std::isfinite(length) ? glm::vec3(sum / length) : glm::vec3(0);
 }
 
 std::vector<glm::vec3> vertexNormals(std::span<const glm::uvec3>, const CornersOfVertices& corners,

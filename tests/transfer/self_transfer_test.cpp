@@ -182,6 +182,15 @@ TEST(SelfTransfer, FarFromTheOriginIsTheSame) {
     EXPECT_EQ(computed(a, withCoarse(0)).frame.coefficients, computed(b, withCoarse(0)).frame.coefficients);
 }
 
+TEST(SelfTransfer, AnyScaleIsTheSame) {
+    AnimatedMesh a = hook(20, 12), b = a;
+    const std::vector<float> expected = computed(a, withCoarse(0)).frame.coefficients;
+    for (const float scale : {0x1p-110f, 0x1p33f, 0x1p47f, 0x1p110f}) {
+        for (std::size_t v = 0; v < a.frames[0].size(); ++v) b.frames[0][v] = scale * a.frames[0][v];
+        EXPECT_EQ(computed(b, withCoarse(0)).frame.coefficients, expected) << scale;
+    }
+}
+
 TEST(SelfTransfer, EverythingBlockedIsZero) {  // inside a closed shell that faces it
     AnimatedMesh a = sphere(8, 12, 0.2f);
     const AnimatedMesh shell = sphere(10, 16, 5);

@@ -227,6 +227,22 @@ TEST(Silhouettes, SameBitsForAnyVectors) {
         }
 }
 
+TEST(Silhouettes, WhatTouchesAFaceHasItBelow) {
+    const Shape ground{{{-1, -1, 0}, {1, -1, 0}, {0, 2, 0}}, {{0, 1, 2}}};
+    const auto hidden = [](const Shape& shape, const glm::vec3& point, const glm::vec3& normal) {
+        const Receiver receivers[] = {receiverAt(point, normal)};
+        return setBits(bySilhouettes(shape, receivers, 0, 32, false));
+    };
+    for (const float height : {0.0f, 5e-8f, -5e-8f}) {
+        EXPECT_EQ(hidden(ground, {0, 0.1f, height}, {0, 0, -1}), 32 * 32) << height;
+        EXPECT_EQ(hidden(ground, {0, 0.1f, height}, {0, 0, 1}), 0) << height;
+    }
+    Shape sheet = ground;  // both its sides, and a point on it that looks along it or a little away
+    sheet.triangles.emplace_back(0, 2, 1);
+    for (const glm::vec3& normal : {glm::vec3(1, 0, 0.05f), glm::vec3(1, 0, -0.05f), glm::vec3(0, -1, 0.01f)})
+        EXPECT_NEAR(hidden(sheet, {0, 0.1f, 0}, glm::normalize(normal)), 32 * 16, 64) << normal.z;
+}
+
 TEST(Silhouettes, NothingHidesNothing) {
     const Receiver receivers[] = {receiverAt(glm::vec3(0), glm::vec3(0, 0, 1))};
     const Shape flat{{{0, 0, 0.5f}, {0.1f, 0, 0.5f}, {0.2f, 0, 0.5f}}, {{0, 1, 2}}};  // without area
