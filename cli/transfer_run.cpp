@@ -146,7 +146,10 @@ TransferRun runTransfer(const AnimatedMesh& animation, const TransferPlan& plan,
     out.weldOf = mesh.weldOf;
     out.triangles = mesh.triangles;
     const std::vector<glm::vec3> restPositions = weldedPositions(mesh, frameAt(rest));
+    for (std::size_t v = 0; v < mesh.weldOf.size(); ++v)
+        run.joined += frameAt(rest)[v] != restPositions[mesh.weldOf[v]] ? 1 : 0;
     const auto poses = plan.poses ? motionPoses(mesh, animation) : std::vector<std::vector<glm::vec3>>();
+    report(progress, "groups and levels of detail", 0);
     Method transfer(mesh, restPositions, plan, poses);
     if (plan.gloss) out.gloss = glossOf(*plan.gloss, animation, first, end);
     transfer.shine(out.gloss, plan.options);

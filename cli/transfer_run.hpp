@@ -16,6 +16,7 @@ struct TransferRun {
     std::size_t reused = 0;         ///< frames in which nothing moved
     std::size_t computed = 0;       ///< vertices of all computed frames
     std::size_t withoutNormal = 0;  ///< vertices, most in any frame
+    std::size_t joined = 0;         ///< vertices of the model that are one with others, though not quite at their place
     double wallSeconds = 0;         ///< of compute() alone, after one frame to warm up
     TransferSeconds seconds;        ///< of all threads together
     double listed = 0, drawn = 0;   ///< blockers a vertex, mean

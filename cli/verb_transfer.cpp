@@ -234,6 +234,11 @@ void runTransferVerb(const Context& context, Settings s) {
     const AnimatedMesh animation = read(s);
     const double readSeconds = reading.seconds();
     TransferRun run = runTransfer(animation, s.plan, s.model, progress);
+    if (run.joined > run.recording.weldOf.size() / 100)
+        tell(fmt::format(
+            "{}: {} of {} vertices are nearer to others than 1e-5 of the extent, and one with them: perhaps "
+            "something is much larger than the rest",
+            s.model, run.joined, run.recording.weldOf.size()));
     json& meta = run.recording.meta = description(context, s, run);
     if (!s.light.files.empty()) {
         meta["light"]["environments"] = s.light.files;

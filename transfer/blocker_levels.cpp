@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "core/parallel.hpp"
+#include "transfer/mask_tables.hpp"
 #include "transfer/receiver_groups.hpp"
 
 namespace nacre {
@@ -73,36 +74,73 @@ struct Standing {
 };
 Standing standing(const std::vector<glm::uvec3>& triangles, std::span<const glm::vec3> rest,
                   std::span<const glm::vec3> normals, std::span<const std::uint32_t> parts) {
-    std::vector<std::vector<std::uint32_t>> ofPart(rest.size());
-    for (std::uint32_t t = 0; t < triangles.size(); ++t) ofPart[parts[triangles[t].x]].push_back(t);
     struct Ball {
-        glm::dvec3 centre, normal;
-        double radius;
+        glm::dvec3 centre{0}, normal{0};
+        double radius = 0;
+    };
+    struct Cluster {
+        Ball ball;
+        std::vector<std::uint32_t> triangles;
     };
     std::vector<Ball> balls;
-    for (const glm::uvec3& t : triangles) {
+    std::vector<std::vector<std::uint32_t>> ofPart(rest.size());
+    for (std::uint32_t i = 0; i < triangles.size(); ++i) {
+        const glm::uvec3& t = triangles[i];
         const glm::dvec3 a = rest[t.x], b = rest[t.y], c = rest[t.z], centre = (a + b + c) / 3.0;
         const double radius = std::max({glm::distance(a, centre), glm::distance(b, centre), glm::distance(c, centre)});
         balls.push_back({centre, glm::cross(b - a, c - a), radius});
+        ofPart[parts[t.x]].push_back(i);
+    }
+    std::vector<std::vector<Cluster>> clusters(rest.size());  // [part]
+    for (std::size_t part = 0; part < ofPart.size(); ++part) {
+        std::vector<glm::vec3> middles;
+        for (const std::uint32_t t : ofPart[part]) middles.emplace_back(balls[t].centre);
+        const std::vector<glm::vec3> alike(middles.size(), glm::vec3(0, 0, 1));
+        for (const std::vector<std::uint32_t>& group : groupReceivers(middles, alike, kLanes)) {
+            Cluster& cluster = clusters[part].emplace_back();
+            for (const std::uint32_t i : group) {
+                cluster.triangles.push_back(ofPart[part][i]);
+                cluster.ball.centre += glm::dvec3(middles[i]) / static_cast<double>(group.size());
+            }
+            for (const std::uint32_t t : cluster.triangles)
+                cluster.ball.radius = std::max(cluster.ball.radius,
+                                               glm::distance(cluster.ball.centre, balls[t].centre) + balls[t].radius);
+        }
     }
     Standing out{std::vector<std::uint32_t>(rest.size()), std::vector<glm::dvec3>(rest.size())};
     parallelFor(rest.size(), 0, [&](std::size_t v) {
+        constexpr double kNone = std::numeric_limits<double>::max();
         const glm::dvec3 p = rest[v], n = normals[v];
-        double best[2] = {std::numeric_limits<double>::max(), std::numeric_limits<double>::max()};
+        double best[2] = {kNone, kNone};
         std::uint32_t triangle[2] = {0, 0};
         glm::dvec3 weights[2] = {glm::dvec3(1, 0, 0), glm::dvec3(1, 0, 0)};
-        for (const std::uint32_t t : ofPart[parts[v]]) {
-            const int other = glm::dot(balls[t].normal, n) > 0 ? 0 : 1;
-            const double away = glm::distance(p, balls[t].centre) - balls[t].radius;
-            if (away > 0 && away * away >= best[other]) continue;
-            const glm::uvec3& i = triangles[t];
-            const NearPoint near = nearestOn(p, rest[i.x], rest[i.y], rest[i.z]);
-            if (near.distanceSquared >= best[other]) continue;
-            best[other] = near.distanceSquared;
-            triangle[other] = t;
-            weights[other] = near.weights;
-        }
-        const int chosen = best[0] < std::numeric_limits<double>::max() ? 0 : 1;
+        const auto mayBeNearer = [&](const Ball& ball) {
+            const double away = glm::distance(p, ball.centre) - ball.radius,
+                         bound = best[0] < kNone ? best[0] : best[1];
+            return away <= 0 || away * away < bound;
+        };
+        const auto look = [&](const Cluster& cluster) {
+            for (const std::uint32_t t : cluster.triangles) {
+                if (!mayBeNearer(balls[t])) continue;
+                const glm::uvec3& i = triangles[t];
+                const NearPoint near = nearestOn(p, rest[i.x], rest[i.y], rest[i.z]);
+                const int other = glm::dot(balls[t].normal, n) > 0 ? 0 : 1;
+                if (near.distanceSquared > best[other] || (near.distanceSquared == best[other] && t > triangle[other]))
+                    continue;
+                best[other] = near.distanceSquared;
+                triangle[other] = t;
+                weights[other] = near.weights;
+            }
+        };
+        const std::vector<Cluster>& some = clusters[parts[v]];
+        const auto nearest = std::min_element(some.begin(), some.end(), [&](const Cluster& x, const Cluster& y) {
+            const glm::dvec3 dx = x.ball.centre - p, dy = y.ball.centre - p;
+            return glm::dot(dx, dx) < glm::dot(dy, dy);
+        });
+        if (nearest != some.end()) look(*nearest);
+        for (const Cluster& cluster : some)
+            if (mayBeNearer(cluster.ball)) look(cluster);
+        const int chosen = best[0] < kNone ? 0 : 1;
         out.triangle[v] = triangle[chosen];
         out.weights[v] = weights[chosen];
     });
@@ -156,6 +194,15 @@ std::vector<float> restErrors(const BlockerLevels& levels, std::size_t l, std::s
     const auto away = [](const glm::dvec3& x, const glm::uvec3& t, std::span<const glm::vec3> p) {
         return nearestOn(x, p[t.x], p[t.y], p[t.z]).distanceSquared;
     };
+    struct Ball {
+        glm::dvec3 centre;
+        double radius;
+    };
+    std::vector<Ball> balls;
+    for (const glm::uvec3& t : mesh.triangles) {
+        const glm::dvec3 a = rest[t.x], b = rest[t.y], c = rest[t.z], m = (a + b + c) / 3.0;
+        balls.push_back({m, std::max({glm::distance(a, m), glm::distance(b, m), glm::distance(c, m)})});
+    }
     std::vector<double> ofTriangle(level.triangles.size());
     parallelFor(ofTriangle.size(), 0, [&](std::size_t i) {
         const glm::uvec3& t = level.triangles[i];
@@ -163,8 +210,11 @@ std::vector<float> restErrors(const BlockerLevels& levels, std::size_t l, std::s
         for (const glm::dvec3& x : {a, b, c, 0.5 * (a + b), 0.5 * (b + c), 0.5 * (c + a), (a + b + c) / 3.0}) {
             double nearest = std::numeric_limits<double>::max();
             for (int k = 0; k < 3; ++k)
-                for (const std::uint32_t f : levels.patches[levels.levels.back().triangleOf[t[k]]].triangles[0])
-                    nearest = std::min(nearest, away(x, mesh.triangles[f], rest));
+                for (const std::uint32_t f : levels.patches[levels.levels.back().triangleOf[t[k]]].triangles[0]) {
+                    const glm::dvec3 d = x - balls[f].centre;
+                    const double within = std::sqrt(nearest) + balls[f].radius;
+                    if (glm::dot(d, d) < within * within) nearest = std::min(nearest, away(x, mesh.triangles[f], rest));
+                }
             ofTriangle[i] = std::max(ofTriangle[i], nearest);
         }
     });
@@ -179,9 +229,10 @@ std::vector<float> restErrors(const BlockerLevels& levels, std::size_t l, std::s
     return out;
 }
 
-/// For triangles of a level that stand for no vertex: the nearest vertex of their connected part, else kNoVertex.
-std::vector<std::uint32_t> nearestVertices(const BlockerLevels::Level& level, std::span<const glm::vec3> rest,
-                                           std::span<const std::uint32_t> parts) {
+/// For triangles of a level that stand for no vertex: the nearest vertex of their corners' patches, else kNoVertex.
+std::vector<std::uint32_t> nearestVertices(const BlockerLevels& levels, std::size_t l,
+                                           std::span<const glm::vec3> rest) {
+    const BlockerLevels::Level& level = levels.levels[l];
     std::vector<std::uint32_t> out(level.triangles.size(), kNoVertex);
     std::vector<std::uint8_t> stands(out.size(), 0);
     for (const std::uint32_t t : level.triangleOf) stands[t] = 1;
@@ -190,13 +241,14 @@ std::vector<std::uint32_t> nearestVertices(const BlockerLevels::Level& level, st
         const glm::uvec3& t = level.triangles[i];
         const glm::vec3 middle = (rest[t.x] + rest[t.y] + rest[t.z]) / 3.0f;
         float best = std::numeric_limits<float>::max();
-        for (std::uint32_t v = 0; v < rest.size(); ++v) {
-            if (parts[v] != parts[t.x] || v == t.x || v == t.y || v == t.z) continue;
-            const glm::vec3 d = rest[v] - middle;
-            if (glm::dot(d, d) >= best) continue;
-            best = glm::dot(d, d);
-            out[i] = v;
-        }
+        for (int c = 0; c < 3; ++c)
+            for (const std::uint32_t v : levels.patches[levels.levels.back().triangleOf[t[c]]].vertices) {
+                if (v == t.x || v == t.y || v == t.z) continue;
+                const glm::vec3 d = rest[v] - middle;
+                if (glm::dot(d, d) >= best) continue;
+                best = glm::dot(d, d);
+                out[i] = v;
+            }
     });
     return out;
 }
@@ -284,7 +336,7 @@ BlockerLevels makeBlockerLevels(const WeldedMesh& mesh, std::span<const glm::vec
         }
     for (BlockerLevels::Patch& patch : out.patches) patch.nearest.resize(out.levels.size());
     for (std::size_t level = 1; level < out.levels.size(); ++level) {
-        const std::vector<std::uint32_t> nearest = nearestVertices(out.levels[level], rest, parts);
+        const std::vector<std::uint32_t> nearest = nearestVertices(out, level, rest);
         for (BlockerLevels::Patch& patch : out.patches)
             for (const std::uint32_t t : patch.triangles[level])
                 if (nearest[t] != kNoVertex) patch.nearest[level].emplace_back(nearest[t], t);

@@ -15,13 +15,20 @@ namespace {
 static_assert(std::endian::native == std::endian::little, "numbers are written and read as they lie in memory");
 
 constexpr std::string_view kMagic = "NACRE_PV";
-constexpr std::uint32_t kVersion = 2;
+constexpr std::uint32_t kVersion = 3;
 constexpr std::uint64_t kMaxBytes = std::uint64_t{1} << 32;
 
 struct Head {
     std::uint32_t version = kVersion, groups = 0, places = 0, windows = 0;
-    std::uint64_t key = 0;
+    std::uint64_t key = 0, check = 0;  ///< check: of all bytes behind the header
 };
+
+/// FNV-1a: a bit that turned over would hide a blocker without a word.
+std::uint64_t checkOf(std::span<const std::uint8_t> bytes) {
+    std::uint64_t hash = 0xcbf29ce484222325ull;
+    for (const std::uint8_t byte : bytes) hash = (hash ^ byte) * 0x100000001b3ull;
+    return hash;
+}
 
 std::uint64_t wordsOf(std::uint64_t groups, std::uint64_t places) { return groups * ((places + 63) / 64); }
 
@@ -48,15 +55,19 @@ VisibleSets findVisibleSets(const SelfTransfer& transfer, std::span<const Number
 }
 
 void writeVisibleSets(const VisibleSets& sets, const std::filesystem::path& path) {
-    const Head head{kVersion, sets.groups, sets.places, static_cast<std::uint32_t>(sets.windows.size()), sets.key};
-    std::string bytes(kMagic);
-    const auto put = [&](const void* from, std::size_t count) { bytes.append(static_cast<const char*>(from), count); };
-    put(&head, sizeof(head));
+    std::string body;
+    const auto put = [&](const void* from, std::size_t count) { body.append(static_cast<const char*>(from), count); };
     for (const VisibleSets::Window& w : sets.windows) {
         const std::int32_t frames[] = {w.first, w.end};
         put(frames, sizeof(frames));
     }
     for (const VisibleSets::Window& w : sets.windows) put(w.bits.data(), 8 * w.bits.size());
+    const Head head{kVersion,    sets.groups,
+                    sets.places, static_cast<std::uint32_t>(sets.windows.size()),
+                    sets.key,    checkOf({reinterpret_cast<const std::uint8_t*>(body.data()), body.size()})};
+    std::string bytes(kMagic);
+    bytes.append(reinterpret_cast<const char*>(&head), sizeof(head));
+    bytes += body;
     writeFile(path, bytes);
 }
 
@@ -91,6 +102,8 @@ VisibleSets parseVisibleSets(std::span<const std::uint8_t> bytes, const std::str
         w.bits.resize(wordsOf(head.groups, head.places));
         take(w.bits.data(), 8 * w.bits.size());
     }
+    if (checkOf(body) != head.check)
+        throw Error(fmt::format("{}: expected the bytes that were written, found others: the file is damaged", name));
     return out;
 }
 

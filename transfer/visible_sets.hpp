@@ -1,8 +1,9 @@
 // Potentially visible sets of a known animation (HEMI section 3.2): which triangles ever block for each group
 // of vertices, by their places in SilhouetteMesh.
 //
-// The file, little-endian: "NACRE_PV", four uint32 (version, groups, places, windows), uint64 key; for each window two
-// int32 (first frame, end), then for each window and group ⌈places/64⌉ uint64 of bits.
+// The file, little-endian: "NACRE_PV", four uint32 (version, groups, places, windows), uint64 key, uint64 check (FNV-1a
+// of what follows); for each window two int32 (first frame, end), then for each window and group ⌈places/64⌉ uint64 of
+// bits.
 #pragma once
 
 #include <cstdint>

@@ -150,9 +150,22 @@ TEST(CommandTransfer, VisibleSetsListLessAndChangeNothing) {
     refused({"--frames", "3:12"}, 1, "expected a set for frame 9, found none");
     refused({"--frames", "3:8", "--lod-angle", "0.7"}, 1, "with these levels of detail, found others");
     refused({"--lut", "64"}, 2, "--pvs: expected no --lut");
+    expectFailure(nacre({"transfer", "cloth", "-o", sets, "--pvs", sets}), 2, "--pvs: expected another file than -o");
+    std::vector<std::uint8_t> bytes = readFile(sets, 1 << 20);
+    bytes[bytes.size() / 2] ^= 4;
+    writeFile(sets, {reinterpret_cast<const char*>(bytes.data()), bytes.size()});
+    refused({"--frames", "3:8"}, 1, "a.pvs: expected the bytes that were written");
     writeFile(sets, "NACRE_PV");
     refused({"--frames", "3:8"}, 1, "a.pvs: expected visible sets");
     EXPECT_EQ(scratch.fileCount(), 2u);
+}
+
+TEST(CommandTransfer, VerticesThatAreOneForSizeAreTold) {
+    const Scratch scratch;
+    writeFile(scratch / "far.obj", corner() + "v 1e7 0 0\nv 0 1e7 0\nv 0 0 1e7\nf -1 -2 -3\n");
+    const Outcome outcome = nacre({"transfer", scratch / "far.obj", "-o", scratch / "a.tv"});
+    EXPECT_EQ(outcome.code, 0);
+    EXPECT_NE(outcome.err.find("nearer to others than 1e-5 of the extent"), std::string::npos) << outcome.err;
 }
 
 TEST(CommandTransfer, PaperMethodErrsMoreAndSaysItsTable) {

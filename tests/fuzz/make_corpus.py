@@ -142,13 +142,16 @@ write("transfer/empty.tv", transfer({**header, "vertices": 0, "source_vertices":
 
 
 def visible(version, groups, places, windows, words):
-    return (b"NACRE_PV" + struct.pack("<4IQ", version, groups, places, len(windows), 99) +
-            b"".join(struct.pack("<2i", *w) for w in windows) + struct.pack(f"<{len(words)}Q", *words))
+    body = b"".join(struct.pack("<2i", *w) for w in windows) + struct.pack(f"<{len(words)}Q", *words)
+    check = 0xcbf29ce484222325
+    for byte in body:
+        check = (check ^ byte) * 0x100000001b3 % 2**64
+    return b"NACRE_PV" + struct.pack("<4I2Q", version, groups, places, len(windows), 99, check) + body
 
 
-write("visible/two.pv", visible(2, 3, 70, [(0, 4), (4, 9)], range(12)))
-write("visible/cut.pv", visible(2, 3, 70, [(0, 4), (4, 9)], range(11)))
-write("visible/huge.pv", visible(2, 2**32 - 1, 2**32 - 1, [], []))
+write("visible/two.pv", visible(3, 3, 70, [(0, 4), (4, 9)], range(12)))
+write("visible/cut.pv", visible(3, 3, 70, [(0, 4), (4, 9)], range(11)))
+write("visible/huge.pv", visible(3, 2**32 - 1, 2**32 - 1, [], []))
 
 
 def glb(document, rest=b""):
