@@ -67,12 +67,11 @@ void requirePlyPlace(const std::string& pattern, int frame) {
         plyName(pattern, 0).find('#') != std::string::npos)
         throw UsageError(
             fmt::format("--ply: expected a folder, or a file's name with one row of #, found '{}'", pattern));
-    if (pattern.find('#') == std::string::npos && pattern.ends_with(".ply") && !fs::exists(pattern))
+    // One file for all frames, or what is a file already.
+    if (pattern.find('#') == std::string::npos && !fs::is_directory(pattern) &&
+        (fs::exists(pattern) || pattern.ends_with(".ply")))
         throw UsageError(fmt::format(
             "--ply: expected a folder, or a file's name with one row of # for the frame, found '{}'", pattern));
-    if (pattern.find('#') == std::string::npos && fs::exists(pattern) && !fs::is_directory(pattern))
-        throw UsageError(
-            fmt::format("--ply: expected a folder, or a file's name with one row of #, found the file '{}'", pattern));
     // A folder that isn't there is made beside a file that could be.
     const bool file = pattern.find('#') != std::string::npos || fs::is_directory(pattern);
     const std::string place = file ? plyName(pattern, frame) : fs::path(pattern / fs::path()).parent_path().string();

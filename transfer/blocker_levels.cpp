@@ -66,6 +66,19 @@ NearPoint nearestOn(const glm::dvec3& p, const glm::dvec3& a, const glm::dvec3& 
     return sum > 0 ? at(vb / sum, vc / sum) : at(0, 0);
 }
 
+struct Ball {
+    glm::dvec3 centre{0};
+    double radius = 0;
+};
+std::vector<Ball> ballsAbout(const std::vector<glm::uvec3>& triangles, std::span<const glm::vec3> points) {
+    std::vector<Ball> out;
+    for (const glm::uvec3& t : triangles) {
+        const glm::dvec3 a = points[t.x], b = points[t.y], c = points[t.z], m = (a + b + c) / 3.0;
+        out.push_back({m, std::max({glm::distance(a, m), glm::distance(b, m), glm::distance(c, m)})});
+    }
+    return out;
+}
+
 /// For each vertex the level's triangle nearest to it among those of its connected part that face its way, else the
 /// nearest of the part.
 struct Standing {
@@ -74,23 +87,13 @@ struct Standing {
 };
 Standing standing(const std::vector<glm::uvec3>& triangles, std::span<const glm::vec3> rest,
                   std::span<const glm::vec3> normals, std::span<const std::uint32_t> parts) {
-    struct Ball {
-        glm::dvec3 centre{0}, normal{0};
-        double radius = 0;
-    };
     struct Cluster {
         Ball ball;
         std::vector<std::uint32_t> triangles;
     };
-    std::vector<Ball> balls;
+    const std::vector<Ball> balls = ballsAbout(triangles, rest);
     std::vector<std::vector<std::uint32_t>> ofPart(rest.size());
-    for (std::uint32_t i = 0; i < triangles.size(); ++i) {
-        const glm::uvec3& t = triangles[i];
-        const glm::dvec3 a = rest[t.x], b = rest[t.y], c = rest[t.z], centre = (a + b + c) / 3.0;
-        const double radius = std::max({glm::distance(a, centre), glm::distance(b, centre), glm::distance(c, centre)});
-        balls.push_back({centre, glm::cross(b - a, c - a), radius});
-        ofPart[parts[t.x]].push_back(i);
-    }
+    for (std::uint32_t i = 0; i < triangles.size(); ++i) ofPart[parts[triangles[i].x]].push_back(i);
     std::vector<std::vector<Cluster>> clusters(rest.size());  // [part]
     for (std::size_t part = 0; part < ofPart.size(); ++part) {
         std::vector<glm::vec3> middles;
@@ -124,7 +127,9 @@ Standing standing(const std::vector<glm::uvec3>& triangles, std::span<const glm:
                 if (!mayBeNearer(balls[t])) continue;
                 const glm::uvec3& i = triangles[t];
                 const NearPoint near = nearestOn(p, rest[i.x], rest[i.y], rest[i.z]);
-                const int other = glm::dot(balls[t].normal, n) > 0 ? 0 : 1;
+                const glm::dvec3 a = rest[i.x],
+                                 across = glm::cross(glm::dvec3(rest[i.y]) - a, glm::dvec3(rest[i.z]) - a);
+                const int other = glm::dot(across, n) > 0 ? 0 : 1;
                 if (near.distanceSquared > best[other] || (near.distanceSquared == best[other] && t > triangle[other]))
                     continue;
                 best[other] = near.distanceSquared;
@@ -194,15 +199,7 @@ std::vector<float> restErrors(const BlockerLevels& levels, std::size_t l, std::s
     const auto away = [](const glm::dvec3& x, const glm::uvec3& t, std::span<const glm::vec3> p) {
         return nearestOn(x, p[t.x], p[t.y], p[t.z]).distanceSquared;
     };
-    struct Ball {
-        glm::dvec3 centre;
-        double radius;
-    };
-    std::vector<Ball> balls;
-    for (const glm::uvec3& t : mesh.triangles) {
-        const glm::dvec3 a = rest[t.x], b = rest[t.y], c = rest[t.z], m = (a + b + c) / 3.0;
-        balls.push_back({m, std::max({glm::distance(a, m), glm::distance(b, m), glm::distance(c, m)})});
-    }
+    const std::vector<Ball> balls = ballsAbout(mesh.triangles, rest);
     std::vector<double> ofTriangle(level.triangles.size());
     parallelFor(ofTriangle.size(), 0, [&](std::size_t i) {
         const glm::uvec3& t = level.triangles[i];

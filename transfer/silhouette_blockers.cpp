@@ -167,7 +167,9 @@ void SilhouetteMesh::see(const Frame& frame, const SilhouetteKernel& kernel, std
     out.sides.resize(triangles_.size() + 1);
     out.sides.back() = 0;
     out.differing.resize(ends_.size());
-    out.dealt.room = 2 * ends_.size() + 2 * kLanes;  // each at most once, and once as an edge under which all is
+    std::size_t meeting = 0;
+    for (const std::span<const std::uint32_t>& some : corners) meeting = std::max(meeting, some.size());
+    out.dealt.room = ends_.size() + meeting + kLanes;  // each once, and those under which all is
     out.dealt.items.resize(out.dealt.room * kLanes);
     std::fill_n(out.dealt.counts, kLanes, std::size_t{0});
     out.nearPole.room = triangles_.size() + kLanes;
@@ -202,7 +204,7 @@ void SilhouetteMesh::see(const Frame& frame, const SilhouetteKernel& kernel, std
                                     : cluster.backs == BackSides::None ? 0
                                                                        : inside;
         const std::uint32_t seen = f.above | (f.above & backs) << 16;
-        const glm::vec3 away = glm::vec3(placed.centre[0], placed.centre[1], placed.centre[2]) - lanes.box.middle;
+        const glm::vec3 away = glm::vec3(placed.centre[0], placed.centre[1], placed.centre[2]) - box.middle;
         const float nearest = nearby * box.radius + placed.radius + kRounding;
         const ClusterFaces faces = kernel.face(placed, lanes, glm::dot(away, away) > nearest * nearest, seen,
                                                out.members[c], out.own.data() + kLanes * c, sides);
