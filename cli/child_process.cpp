@@ -33,6 +33,12 @@ constexpr std::size_t kMostErrors = 64 << 10;
     ::_exit(127);
 }
 
+int statusOf(pid_t process, int flags) {
+    int status = 0;
+    while (::waitpid(process, &status, flags) < 0 && errno == EINTR) continue;
+    return status;
+}
+
 }  // namespace
 
 ChildProcess::ChildProcess(const std::vector<std::string>& arguments, const ChildSetting& setting) {
@@ -59,8 +65,7 @@ ChildProcess::ChildProcess(const std::vector<std::string>& arguments, const Chil
 ChildProcess::~ChildProcess() {
     if (process_ > 0) {
         ::kill(process_, SIGTERM);
-        ::kill(process_, SIGCONT);  // a stopped one would keep it pending
-        wait();
+        end();
     }
     ::close(error_);
 }
@@ -73,9 +78,15 @@ bool ChildProcess::takeErrors() {
     return size > 0;
 }
 
+/// A stopped process keeps SIGTERM pending. One that isn't must not get SIGCONT, which takes the stop of a tracer away:
+/// the leak check of an ending process then waits for ever.
+void ChildProcess::end() {
+    while (WIFSTOPPED(statusOf(process_, WUNTRACED))) ::kill(process_, SIGCONT);
+    process_ = -1;
+}
+
 int ChildProcess::wait() {
-    int status = 0;
-    while (::waitpid(process_, &status, 0) < 0 && errno == EINTR) continue;
+    const int status = statusOf(process_, 0);
     process_ = -1;
     return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
 }

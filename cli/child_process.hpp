@@ -32,6 +32,8 @@ public:
     const std::string& errors() const { return errors_; }  ///< the first 64 KiB
 
 private:
+    void end();
+
     pid_t process_ = -1;
     int error_ = -1;
     std::string errors_;
