@@ -53,6 +53,7 @@ std::vector<Bar> measureTransferBars(const std::vector<TransferMesh>& meshes, co
     constexpr double kSmall = 2978, kLarge = 8636;  // HEMI table 1: fight and hand
     const SelfTransferOptions quick = quickTransfer(), fast = fastTransfer(), quality = qualityTransfer();
     const SelfTransferOptions rough{.mask = 16, .coarse = 0};
+    const SelfTransferOptions coarse{.coarse = 250, .lodAngle = 0.6, .lodError = 0.5, .nearby = 1};
     const std::string fastText = "transfer, fast (" + text(fast) + ")",
                       qualityText = "transfer, quality (" + text(quality) + ")";
     const std::string quickText = "transfer, quick (" + text(quick) + ")";
@@ -69,12 +70,13 @@ std::vector<Bar> measureTransferBars(const std::vector<TransferMesh>& meshes, co
     Bar large{"transfer (" + text(largeTransfer()) + "), 8636 vertices", "frames/s", 180, 0, true};
     for (const TransferMesh& mesh : meshes) {
         std::vector<TransferContender> all = {ours(mesh, fast), ours(mesh, quality), ours(mesh, rough),
-                                              papers(mesh, {}), ours(mesh, quick)};
+                                              papers(mesh, {}), ours(mesh, quick),   ours(mesh, coarse)};
         for (const std::size_t rays : {64, 128, 256, 512, 1024, 4096})
             if (!options.quick || rays <= 512) all.push_back(embree(mesh, rays));
         const std::vector<TransferMeasurement> found = measureTransfer(mesh, all, options);
         if (kept != nullptr) kept->insert(kept->end(), found.begin(), found.end());
-        const TransferMeasurement &f = found[0], &q = found[1], &r = found[2], &hemi = found[3], &k = found[4];
+        const TransferMeasurement &f = found[0], &q = found[1], &r = found[2], &hemi = found[3], &k = found[4],
+                                  &c = found[5];
         const double noise = f.noise;
         if (std::abs(std::log(static_cast<double>(k.vertices) / kSmall)) < 0.2) {
             add(quickSpeed, k.verticesPerSecond() / 1e6, fmt::format("{}, {} vertices", mesh.name, k.vertices),
@@ -90,7 +92,7 @@ std::vector<Bar> measureTransferBars(const std::vector<TransferMesh>& meshes, co
             fmt::format(" at {:.2g} %", 100 * f.error));
         add(qualityRays, embreeSecondsAt(found, q.error) / secondsAVertex(q), mesh.name,
             fmt::format(" at {:.2g} %", 100 * q.error));
-        add(paper, timesFasterAtHalfTheError(hemi, {&f, &q, &r, &k}), mesh.name,
+        add(paper, timesFasterAtHalfTheError(hemi, {&f, &q, &r, &k, &c}), mesh.name,
             fmt::format(" (HEMI's {:.2g} %)", 100 * hemi.error));
     }
     if (!meshes.empty()) {

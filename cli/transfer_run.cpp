@@ -44,7 +44,7 @@ class Method {
 public:
     Method(const WeldedMesh& mesh, std::span<const glm::vec3> rest, const TransferPlan& plan,
            std::span<const std::vector<glm::vec3>> poses)
-        : sides_(plan.options.sides), paperCoarse_(plan.options.coarse.value_or(kUsualCoarse)) {
+        : sides_(plan.options.sides), paperCoarse_(plan.options.coarse.value_or(PaperMethodOptions{}.coarse)) {
         const SelfTransferOptions& o = plan.options;
         if (o.sides == BlockingSides::Auto) sides_ = mesh.closed ? BlockingSides::Front : BlockingSides::Both;
         if (plan.lut)

@@ -27,7 +27,7 @@ struct Settings {
     std::string model, output, clip, ply, sides = "auto", vectors = "widest", weights;
     TransferPlan plan;  ///< end 0: all
     std::optional<int> rings{};
-    bool lodAngle = false;   ///< given
+    std::string ofLevels;    ///< the last option given that is for levels of detail alone
     std::string notWithLut;  ///< the first option given that the paper's method has no use for
     TransferLight light;
     std::size_t rays = 0;  ///< 0: no reference
@@ -52,6 +52,14 @@ void takeNearby(Settings& s, const std::string& text) {
     if (!parseNumbers(text, v) || !(std::isfinite(v[0]) && (v[0] == 0 || v[0] >= 1)))
         throw UsageError(fmt::format("expected a number of radii, 0 or from 1 on, found '{}'", text));
     s.plan.options.nearby = v[0];
+}
+
+void takeLodError(Settings& s, const std::string& text) {
+    double v[1];
+    if (!parseNumbers(text, v) || !(std::isfinite(v[0]) && v[0] >= 0))
+        throw UsageError(fmt::format("expected an error of 0 or more, found '{}'", text));
+    s.plan.options.lodError = v[0];
+    s.ofLevels = "--lod-error";
 }
 
 void takeEye(Settings& s, const std::string& text) {
@@ -120,6 +128,7 @@ json description(const Context& context, const Settings& s, const TransferRun& r
                   {"rings", o.rings},
                   {"coarse", run.coarse},
                   {"lod_angle", o.lodAngle},
+                  {"lod_error", o.lodError},
                   {"nearby", o.nearby.value_or(usualNearby(o.mask))},
                   {"sides", nameOf(run.sides)}}},
                 {"closed", run.closed},
@@ -209,12 +218,11 @@ void runTransferVerb(const Context& context, Settings s) {
         throw UsageError("--glossy: expected no --pvs, which is for matt transfer");
     s.plan.options.rings = s.rings.value_or(s.plan.lut ? PaperMethodOptions{}.rings : SelfTransferOptions{}.rings);
     // Who asks how levels are to be used wants some.
-    const bool levels = s.plan.lut || s.rings || s.lodAngle;
-    if (!s.plan.lut && (s.rings || s.lodAngle) && s.plan.options.coarse == 0u)
-        throw UsageError(
-            fmt::format("{}: expected levels of detail, found --coarse 0", s.rings ? "--rings" : "--lod-angle"));
+    if (!s.plan.lut && !s.ofLevels.empty() && s.plan.options.coarse == 0u)
+        throw UsageError(fmt::format("{}: expected levels of detail, found --coarse 0", s.ofLevels));
     if (s.referenceFrames && s.rays == 0) throw UsageError("--reference-frames: expected --reference, found none");
-    if (levels && !s.plan.options.coarse) s.plan.options.coarse = kUsualCoarse;
+    if ((s.plan.lut || !s.ofLevels.empty()) && !s.plan.options.coarse)
+        s.plan.options.coarse = s.plan.lut ? PaperMethodOptions{}.coarse : kUsualCoarse;
     s.plan.options.sides = sidesOf(s.sides);
     if (s.plan.lut && s.plan.options.sides == BlockingSides::Fine)
         throw UsageError("--sides: expected auto, front or both with --lut, found 'fine'");
@@ -325,18 +333,29 @@ std::vector<Option> options(const std::shared_ptr<Settings>& s) {
              integerInto([s](long long v) { s->plan.options.order = static_cast<int>(v); }, 0, kMaxTransferOrder))},
         {"--rings", "R",
          "With levels, the mesh itself blocks within so many rings of triangles, 1 or 2 (default 1; with --lut 2)",
-         integerInto([s](long long v) { s->rings = static_cast<int>(v); }, 1, 2)},
+         integerInto(
+             [s](long long v) {
+                 s->rings = static_cast<int>(v);
+                 s->ofLevels = "--rings";
+             },
+             1, 2)},
         {"--coarse", "N",
          "Triangles of the coarsest level of detail, about; 0: the mesh itself everywhere, which errs less (default 0 "
-         "up to 20000 triangles, else 300; with --rings, --lod-angle or --lut 300). Hardly faster below 5000",
+         "up to 20000 triangles, else 500; with --rings, --lod-angle or --lod-error 500, with --lut 400). At 6000 "
+         "triangles 1.1 to 1.3 times as fast, at 15000 twice",
          integerInto([s](long long v) { s->plan.options.coarse = static_cast<std::size_t>(v); }, 0, 1 << 30)},
         {"--lod-angle", "RAD",
-         "A level is used where it is off by less, seen from the vertex (default 0.25: 1 to 2.5 % error; 1: 2.5 to 4 "
-         "%)",
+         "A level is used where it is off by less, seen from the vertex (default 0.25: adds 0.5 to 1 % error)",
          own("--lod-angle", positiveInto([s](double v) {
                  s->plan.options.lodAngle = v;
-                 s->lodAngle = true;
+                 s->ofLevels = "--lod-angle";
              }))},
+        {"--lod-error", "E",
+         "Vertices that err no more by it, relative to their light, in the first frame and in five of the motion see "
+         "the "
+         "coarsest level wherever it isn't near; the others go by --lod-angle (default 0.05: adds 0.5 % error; 0.15: "
+         "1 to 2 %; 0: all go by the angle)",
+         own("--lod-error", [s](const std::string& given) { takeLodError(*s, given); })},
         {"--nearby", "R",
          "Sixteen vertices share the silhouettes of what is farther than R radii, 1 or more, of their group; 0: each "
          "finds its own "

@@ -27,6 +27,9 @@ BlockerLists::BlockerLists(const MovingLevels& levels, const SilhouetteMesh& sil
             parts_.insert(parts_.end(), some.begin(), some.end());
         }
     firstPart_.push_back(static_cast<std::uint32_t>(parts_.size()));
+    coarsestMembers_.resize(silhouettes.clusterCount());
+    for (std::size_t p = 0; p < patches; ++p)
+        for (const SilhouetteMesh::Part& part : partsOf(p, count - 1)) coarsestMembers_[part.cluster] |= part.triangles;
     for (std::size_t p = 0; p < patches; p += kLanes) {
         const std::uint32_t cluster = parts_[firstPart_[count * p + count - 1]].cluster;
         bool alike = true;
@@ -67,21 +70,37 @@ void BlockerLists::setGroups(std::span<const std::vector<std::uint32_t>> groups,
     }
 }
 
-std::size_t BlockerLists::list(std::size_t group, const GroupBounds& bounds, float angle, const FrameBlockers& blockers,
-                               const BlockerKernel& kernel, Room& room, std::vector<std::uint32_t>& members) const {
+std::span<const SilhouetteMesh::Part> BlockerLists::partsOf(std::size_t patch, std::size_t level) const {
+    const std::uint32_t* part = &firstPart_[levels_.levelCount() * patch + level];
+    return std::span(parts_).subspan(part[0], part[1] - part[0]);
+}
+
+std::size_t BlockerLists::list(std::size_t group, const GroupBounds& bounds, std::optional<float> angle,
+                               const FrameBlockers& blockers, const BlockerKernel& kernel, Room& room,
+                               std::vector<std::uint32_t>& members) const {
     const std::size_t patches = levels_.patches().size(), count = levels_.levelCount();
-    members.assign(silhouettes_.clusterCount(), 0);
     if (count == 1) {
+        members.resize(silhouettes_.clusterCount());
         for (std::size_t c = 0; c < members.size(); ++c) members[c] = silhouettes_.all(c);
         return 0;
     }
+    const auto add = [&](const SilhouetteMesh::Part& part) { members[part.cluster] |= part.triangles; };
+    if (!angle) {
+        members = coarsestMembers_;
+        for (const std::uint32_t p : nearPatches_[group]) {
+            for (const SilhouetteMesh::Part& part : partsOf(p, count - 1)) members[part.cluster] &= ~part.triangles;
+            std::ranges::for_each(partsOf(p, 0), add);
+        }
+        std::ranges::for_each(near_[group], add);
+        return 0;
+    }
+    members.assign(silhouettes_.clusterCount(), 0);
     room.levels.resize(patches + kLanes);
     room.hidden.resize(patches / kLanes + 1);
-    kernel.choose(blockers.patches, bounds, angle, room.levels.data(), room.hidden.data());
+    kernel.choose(blockers.patches, bounds, *angle, room.levels.data(), room.hidden.data());
     // A coarse triangle next to the vertex is harmless while its back lets light through.
     for (const std::uint32_t p : nearPatches_[group]) room.levels[p] = 0;
-    const auto add = [&](const SilhouetteMesh::Part& part) { members[part.cluster] |= part.triangles; };
-    std::for_each(near_[group].begin(), near_[group].end(), add);
+    std::ranges::for_each(near_[group], add);
     std::size_t hidden = 0;
     for (std::size_t first = 0; first < patches; first += kLanes) {
         const std::size_t block = first / kLanes;
@@ -97,15 +116,15 @@ std::size_t BlockerLists::list(std::size_t group, const GroupBounds& bounds, flo
         }
         for (; left; left &= left - 1) {
             const auto k = static_cast<std::size_t>(std::countr_zero(left));
-            const std::uint32_t* part = &firstPart_[count * (first + k) + level[k]];
-            std::for_each(parts_.data() + part[0], parts_.data() + part[1], add);
+            std::ranges::for_each(partsOf(first + k, level[k]), add);
         }
     }
     return hidden;
 }
 
 std::size_t BlockerLists::bytes() const {
-    return bytesOf(parts_) + bytesOf(firstPart_) + bytesOf(coarsest_) + bytesOf(near_) + bytesOf(nearPatches_);
+    return bytesOf(parts_) + bytesOf(firstPart_) + bytesOf(coarsestMembers_) + bytesOf(coarsest_) + bytesOf(near_) +
+           bytesOf(nearPatches_);
 }
 
 }  // namespace nacre

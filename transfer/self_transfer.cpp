@@ -12,6 +12,7 @@
 #include "core/parallel.hpp"
 #include "transfer/blocker_lists.hpp"
 #include "transfer/thread_seconds.hpp"
+#include "transfer/vertex_detail.hpp"
 
 namespace nacre {
 namespace {
@@ -59,8 +60,8 @@ struct SelfTransfer::State {
     MovingLevels levels;
     BlockingParts parts;
     std::vector<std::vector<std::uint32_t>> groups;
-    float nearby = 0;           ///< radii; infinity: all is near
-    std::vector<float> angles;  ///< [group] lodAngle, less where little light gets to
+    float nearby = 0;                   ///< radii; infinity: all is near
+    std::vector<VertexDetail> details;  ///< [group]
     SilhouetteMesh silhouettes;
     BlockerLists lists;
     SilhouetteKernel kernel;
@@ -76,7 +77,9 @@ struct SelfTransfer::State {
     State(WeldedMesh m, std::span<const glm::vec3> rest, const SelfTransferOptions& o);
     std::unique_ptr<FrameBlockers> takeSpare();
     void keepSpare(std::unique_ptr<FrameBlockers> blockers);
-    void makeGroups(std::span<const glm::vec3> rest, std::span<const std::uint8_t> dark);
+    void makeGroups(std::span<const glm::vec3> rest, std::span<const VertexDetail> detailsOf);
+    std::vector<VertexDetail> measureDetail(const SelfTransfer& transfer, std::span<const glm::vec3> rest,
+                                            std::span<const std::vector<glm::vec3>> poses);
     SilhouetteMesh makeSilhouettes(std::span<const glm::vec3> rest) const;
     std::size_t listBlockers(const FrameBlockers& blockers, const GroupBounds& bounds, std::size_t group,
                              const BlockerSets& sets, Scratch& scratch) const;
@@ -107,7 +110,7 @@ SelfTransfer::State::State(WeldedMesh m, std::span<const glm::vec3> rest, const 
     options.coarse = o.coarse.value_or(usualCoarse(mesh.triangles.size()));
     options.nearby = o.nearby.value_or(usualNearby(o.mask));
     nearby = *options.nearby > 0 ? static_cast<float>(*options.nearby) : std::numeric_limits<float>::infinity();
-    makeGroups(rest, {});
+    makeGroups(rest, std::vector<VertexDetail>(rest.size(), VertexDetail::ByAngle));
 }
 
 SilhouetteMesh SelfTransfer::State::makeSilhouettes(std::span<const glm::vec3> rest) const {
@@ -122,23 +125,22 @@ SilhouetteMesh SelfTransfer::State::makeSilhouettes(std::span<const glm::vec3> r
     return SilhouetteMesh(triangles, levels.unpushed(rest), backs, levels.patchesOfTriangles());
 }
 
-/// Vertices that need more blockers than others, dark ones and those that see backs, are in groups of their own.
-/// \param dark  [vertex] 1 that gets little light, 2 hardly any, else 0; empty: all 0. Errors count relative to
-/// the light that a vertex gets, so that these need finer blockers
-void SelfTransfer::State::makeGroups(std::span<const glm::vec3> rest, std::span<const std::uint8_t> dark) {
-    constexpr float kAngles[] = {1, 0.4f, 0.1f};  // of lodAngle
+/// Vertices that see backs, and those that see other levels, are in groups of their own.
+/// \param detailsOf  [vertex]
+void SelfTransfer::State::makeGroups(std::span<const glm::vec3> rest, std::span<const VertexDetail> detailsOf) {
     const std::vector<glm::vec3> normals = vertexNormals(mesh.triangles, corners, rest);
     groups.clear();
-    angles.clear();
-    for (int kind = 0; kind < 6; ++kind) {  // dark or not, times two: inside or not
-        std::vector<glm::vec3> ofKind = normals;
-        for (std::size_t v = 0; v < ofKind.size(); ++v)
-            if ((parts.inside[v] ? 3 : 0) + (dark.empty() ? 0 : dark[v]) != kind) ofKind[v] = glm::vec3(0);
-        for (std::vector<std::uint32_t>& group : groupReceivers(rest, ofKind, kGroup)) {
-            groups.push_back(std::move(group));
-            angles.push_back(static_cast<float>(options.lodAngle) * kAngles[kind % 3]);
+    details.clear();
+    for (const int inside : {0, 1})
+        for (const VertexDetail detail : {VertexDetail::Coarsest, VertexDetail::ByAngle, VertexDetail::Fine}) {
+            std::vector<glm::vec3> ofKind = normals;
+            for (std::size_t v = 0; v < ofKind.size(); ++v)
+                if (parts.inside[v] != inside || detailsOf[v] != detail) ofKind[v] = glm::vec3(0);
+            for (std::vector<std::uint32_t>& group : groupReceivers(rest, ofKind, kGroup)) {
+                groups.push_back(std::move(group));
+                details.push_back(detail);
+            }
         }
-    }
     lists.setGroups(groups, mesh, corners, parts, options.rings);
 }
 
@@ -159,7 +161,10 @@ void SelfTransfer::State::keepSpare(std::unique_ptr<FrameBlockers> blockers) {
 std::size_t SelfTransfer::State::listBlockers(const FrameBlockers& blockers, const GroupBounds& bounds,
                                               std::size_t group, const BlockerSets& sets, Scratch& scratch) const {
     std::vector<std::uint32_t>& members = scratch.seen.members;
-    std::size_t listed = lists.list(group, bounds, angles[group], blockers, blockerKernels, scratch.lists, members);
+    std::optional<float> angle;
+    if (details[group] != VertexDetail::Coarsest)
+        angle = static_cast<float>(options.lodAngle) * (details[group] == VertexDetail::Fine ? kFineAngle : 1);
+    std::size_t listed = lists.list(group, bounds, angle, blockers, blockerKernels, scratch.lists, members);
     if (!sets.visible.empty())
         for (std::size_t c = 0; c < members.size(); ++c)
             members[c] &=
@@ -237,35 +242,47 @@ GroupResult SelfTransfer::State::computeGroup(std::size_t group, std::span<const
     return result;
 }
 
+/// At rest and in the poses.
+std::vector<VertexDetail> SelfTransfer::State::measureDetail(const SelfTransfer& transfer,
+                                                             std::span<const glm::vec3> rest,
+                                                             std::span<const std::vector<glm::vec3>> poses) {
+    MeasuredDetail measured(rest.size());
+    const auto found = [&](std::span<const glm::vec3> positions, VertexDetail detail) {
+        std::fill(details.begin(), details.end(), detail);
+        return transfer.compute(positions).coefficients;
+    };
+    const auto add = [&](std::span<const glm::vec3> positions) {
+        const std::vector<float> byAngle = found(positions, VertexDetail::ByAngle);
+        if (options.lodError > 0)
+            measured.add(byAngle, found(positions, VertexDetail::Coarsest), open[0]);
+        else
+            measured.add(byAngle, byAngle, open[0]);
+    };
+    add(rest);
+    for (const std::vector<glm::vec3>& pose : poses) add(pose);
+    return measured.within(options.lodError);
+}
+
 SelfTransfer::SelfTransfer(WeldedMesh mesh, std::span<const glm::vec3> rest, const SelfTransferOptions& options,
                            std::span<const std::vector<glm::vec3>> poses) {
     require(options.rings == 1 || options.rings == 2, "transfer: expected 1 or 2 rings");
     require(std::isfinite(options.lodAngle) && options.lodAngle >= 0, "transfer: expected an angle of 0 or more");
     require(!options.nearby || *options.nearby == 0 || (*options.nearby >= 1 && std::isfinite(*options.nearby)),
             "transfer: expected radii of 1 or more, or 0");
+    require(std::isfinite(options.lodError) && options.lodError >= 0, "transfer: expected an error of 0 or more");
     require(rest.size() == mesh.vertexCount(), "transfer: expected a position a vertex");
     state_ = std::make_unique<State>(std::move(mesh), normalized(rest), options);
     State& s = *state_;
     if (rest.empty() || (s.levels.levelCount() == 1 && !s.parts.hasShells)) return;
-    constexpr double kDark = 0.5, kDarkest = 0.1;  // of an open vertex's light
-    const std::vector<float> atRest = compute(rest).coefficients;
     if (s.parts.hasShells) {
+        const std::vector<float> withBacks = compute(rest).coefficients;
         std::fill(s.parts.inside.begin(), s.parts.inside.end(), std::uint8_t{0});
-        findInside(s.mesh, atRest, compute(rest).coefficients, s.open[0], s.parts);
+        findInside(s.mesh, withBacks, compute(rest).coefficients, s.open[0], s.parts);
     }
     if (s.levels.levelCount() == 1) return;
-    std::vector<std::uint8_t> dark(rest.size(), 0);
-    const auto darken = [&](const std::vector<float>& coefficients) {
-        const std::size_t size = s.open.size() * s.open.size();
-        for (std::size_t v = 0; v < rest.size(); ++v) {
-            const double light = coefficients[size * v] / s.open[0];
-            dark[v] = std::max<std::uint8_t>(dark[v], light < kDarkest ? 2 : light < kDark ? 1 : 0);
-        }
-    };
-    darken(atRest);
-    for (const std::vector<glm::vec3>& pose : poses) darken(compute(pose).coefficients);
-    s.makeGroups(normalized(rest), dark);
+    s.makeGroups(normalized(rest), s.measureDetail(*this, rest, poses));
 }
+
 SelfTransfer::~SelfTransfer() = default;
 SelfTransfer::SelfTransfer(SelfTransfer&&) noexcept = default;
 
@@ -283,7 +300,7 @@ std::size_t SelfTransfer::bytes() const {
     const std::size_t vertices = s.mesh.vertexCount();
     std::size_t sum = bytesOf(s.mesh.weldOf) + bytesOf(s.mesh.firstOf) + bytesOf(s.mesh.triangles) + s.corners.bytes() +
                       s.levels.bytes() + bytesOf(s.parts.sheets) + bytesOf(s.parts.inside) + bytesOf(s.groups) +
-                      bytesOf(s.angles) + s.lists.bytes() + s.silhouettes.bytes();
+                      bytesOf(s.details) + s.lists.bytes() + s.silhouettes.bytes();
     for (const std::unique_ptr<FrameBlockers>& blockers : s.spare) sum += blockers->bytes();
     return sum + vertices * (2 * sizeof(glm::vec3) + s.open.size() * s.open.size() * sizeof(float));
 }
@@ -296,8 +313,10 @@ std::uint64_t SelfTransfer::key() const {
     add(static_cast<std::uint64_t>(o.rings));
     add(static_cast<std::uint64_t>(o.sides));
     add(std::bit_cast<std::uint64_t>(o.lodAngle));
-    for (const std::vector<std::uint32_t>& group : state_->groups)
-        for (const std::uint32_t v : group) add(v);
+    for (std::size_t g = 0; g < state_->groups.size(); ++g) {
+        add(static_cast<std::uint64_t>(state_->details[g]));
+        for (const std::uint32_t v : state_->groups[g]) add(v);
+    }
     for (const glm::uvec3& t : state_->mesh.triangles)
         for (int c = 0; c < 3; ++c) add(t[c]);
     for (std::size_t p = 0; p < state_->levels.patches().size(); ++p)

@@ -235,6 +235,21 @@ TEST(SelfTransfer, FollowsDeformation) {  // levels made at rest serve a pose th
     EXPECT_LT(errorOf({mesh, now, transfer.compute(now)}).mean, 0.05);
 }
 
+TEST(SelfTransfer, LevelsErrAsMuchAsIsLetTo) {
+    const AnimatedMesh mesh = hook(40, 24);
+    double before = 0, drawn = 1e9;
+    for (const double error : {0.0, 0.05, 0.3}) {
+        SelfTransferOptions o = withCoarse(300);
+        o.lodError = error;
+        const Case c = computed(mesh, o);
+        const double found = errorOf(c).mean;
+        EXPECT_GE(found, before) << error;
+        EXPECT_LT(c.frame.drawn, drawn) << error;
+        EXPECT_LT(found, 0.02 + 0.3 * error) << error;
+        before = found, drawn = c.frame.drawn;
+    }
+}
+
 TEST(SelfTransfer, RefusesWhatItCannotCompute) {
     const AnimatedMesh a = hook(20, 12);
     const WeldedMesh mesh = weldMesh(a, "mesh");
@@ -243,7 +258,7 @@ TEST(SelfTransfer, RefusesWhatItCannotCompute) {
     for (const auto change :
          {+[](SelfTransferOptions& x) { x.mask = 48; }, +[](SelfTransferOptions& x) { x.order = 7; },
           +[](SelfTransferOptions& x) { x.rings = 3; }, +[](SelfTransferOptions& x) { x.lodAngle = -1; },
-          +[](SelfTransferOptions& x) { x.nearby = 0.5; }}) {
+          +[](SelfTransferOptions& x) { x.nearby = 0.5; }, +[](SelfTransferOptions& x) { x.lodError = -0.1; }}) {
         o = {};
         change(o);
         EXPECT_THROW(SelfTransfer(mesh, positions, o), std::invalid_argument);
