@@ -98,7 +98,8 @@ std::vector<double> truthOf(const WeldedMesh& mesh, std::span<const glm::vec3> p
 SelfTransfer transferOf(const AnimatedMesh& animation, const SelfTransferOptions& options) {
     WeldedMesh mesh = weldMesh(animation, "the exhibit's mesh");
     const std::vector<glm::vec3> rest = weldedPositions(mesh, animation.frames[0]);
-    return {std::move(mesh), rest, options};
+    const std::vector<std::vector<glm::vec3>> poses = motionPoses(mesh, animation);
+    return {std::move(mesh), rest, options, poses};
 }
 
 }  // namespace
