@@ -259,7 +259,8 @@ std::vector<VertexDetail> SelfTransfer::State::measureDetail(const SelfTransfer&
             measured.add(byAngle, byAngle, open[0]);
     };
     add(rest);
-    for (const std::vector<glm::vec3>& pose : poses) add(pose);
+    for (const std::vector<glm::vec3>& pose : poses)
+        if (!std::ranges::equal(pose, rest)) add(pose);
     return measured.within(options.lodError);
 }
 
