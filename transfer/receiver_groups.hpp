@@ -9,8 +9,8 @@
 
 namespace nacre {
 
-/// Groups of at most `most` vertices near each other and facing alike, by halving the longest extent of position and
-/// normal. Vertices without a normal are in no group.
+/// Groups of at most `most` vertices near each other and facing alike: cut in two again and again, where the groups to
+/// come are least wide by position and normal. Vertices without a normal are in no group.
 std::vector<std::vector<std::uint32_t>> groupReceivers(std::span<const glm::vec3> positions,
                                                        std::span<const glm::vec3> normals, std::size_t most);
 
