@@ -66,7 +66,7 @@ double wallSeconds() {
 
 }  // namespace
 
-SelfTransferOptions quickTransfer() { return {.coarse = 500, .lodError = 0.2, .nearby = 1.5}; }
+SelfTransferOptions quickTransfer() { return {.coarse = 500, .lodError = 0.15, .nearby = 1.5}; }
 
 SelfTransferOptions largeTransfer() { return {.coarse = 500, .lodAngle = 0.3, .lodError = 0.02}; }
 
