@@ -48,17 +48,16 @@ void takeSpecular(Settings& s, const std::string& text) {
 }
 
 void takeNearby(Settings& s, const std::string& text) {
-    double v[1];
-    if (!parseNumbers(text, v) || !(std::isfinite(v[0]) && (v[0] == 0 || v[0] >= 1)))
+    double radii = 0;
+    finiteInto(radii)(text);
+    if (radii != 0 && radii < 1)
         throw UsageError(fmt::format("expected a number of radii, 0 or from 1 on, found '{}'", text));
-    s.plan.options.nearby = v[0];
+    s.plan.options.nearby = radii;
 }
 
 void takeLodError(Settings& s, const std::string& text) {
-    double v[1];
-    if (!parseNumbers(text, v) || !(std::isfinite(v[0]) && v[0] >= 0))
-        throw UsageError(fmt::format("expected an error of 0 or more, found '{}'", text));
-    s.plan.options.lodError = v[0];
+    finiteInto(s.plan.options.lodError)(text);
+    if (s.plan.options.lodError < 0) throw UsageError(fmt::format("expected an error of 0 or more, found '{}'", text));
     s.ofLevels = "--lod-error";
 }
 

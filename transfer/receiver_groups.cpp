@@ -57,8 +57,8 @@ public:
         return out;
     }
 
-    /// Where groups of the two sides are least wide, by what the sides are; neither side has less than a quarter of
-    /// many. So a part far from the others isn't torn.
+    /// Where the two sides, each as wide as it is and times the groups that it will have, are least: a part far from
+    /// the others isn't torn. Of more than four groups neither side gets less than a quarter.
     Cut narrowest(std::span<const std::uint32_t> part) const {
         const std::size_t n = part.size(), least = n > 4 * most_ ? n / 4 : 1;
         Cut out = middle(part);

@@ -12,8 +12,7 @@
 namespace nacre {
 
 inline constexpr std::size_t kUsualCoarse = 500;  ///< SelfTransferOptions::coarse of who wants levels
-/// At 6000 triangles levels are 1.3 to 1.5 times as fast, at 15000 twice, at 100000 eight times, for an error of 2 to 3
-/// %.
+/// For an error of 2 to 3 % levels are 1.3 times as fast at 6000 triangles, twice at 15000, eight times at 100000.
 inline constexpr std::size_t usualCoarse(std::size_t triangles) { return triangles > 20000 ? kUsualCoarse : 0; }
 
 /// Errors by sharing silhouettes stay within a tenth of those by the mask's bits.
@@ -24,8 +23,9 @@ struct SelfTransferOptions {
     int order = 4;  ///< highest band of harmonics, 0 to 6: (order + 1)² coefficients
     /// Triangles of the coarsest level, about; 0 = no levels, the mesh itself everywhere; none = usualCoarse's.
     std::optional<std::size_t> coarse{};
-    int rings = 1;           ///< with levels, the mesh itself blocks within so many rings of triangles: 1 or 2
-    double lodAngle = 0.25;  ///< [rad] a level is used where it is off by less, seen from the vertex
+    int rings = 1;  ///< with levels, the mesh itself blocks within so many rings of triangles: 1 or 2
+    /// [rad] A level is used where it is off by less, seen from the vertex; by kFineAngle of that where it is dark.
+    double lodAngle = 0.25;
     /// Vertices whose transfer is off by no more, relative to itself, at rest and in the poses, see the coarsest level
     /// everywhere but near themselves. 0 = none do.
     double lodError = 0.05;
